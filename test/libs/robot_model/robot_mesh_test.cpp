@@ -38,7 +38,7 @@ std::vector<Triangle> read_mesh(const Shape& shape) {
       Triangle triangle;
       triangle.material = scene->mMaterials[mesh.mMaterialIndex]->GetName().C_Str();
       for (int k = 0; k < 3; ++k) {
-        const unsigned index = mesh.mFaces[f].mIndices[k];
+        const unsigned index = mesh.mFaces[f].mIndices[shape.is_mirrored ? 2 - k : k];
         const aiVector3D& corner = mesh.mVertices[index];
         const aiVector3D& normal = mesh.mNormals[index];
         triangle.corners[k] = {corner.x, side * corner.y, corner.z};

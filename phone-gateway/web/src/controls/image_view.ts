@@ -75,7 +75,7 @@ export class ImageView {
   }
 
   /** Puts a drawing over the image, and a button on it. */
-  addMarks(marks: HTMLCanvasElement, button: HTMLButtonElement): void {
+  addMarks(marks: Element, button: HTMLButtonElement): void {
     this.canvas.after(marks);
     this.element.append(button);
   }

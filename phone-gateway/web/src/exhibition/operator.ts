@@ -7,10 +7,9 @@ import {Connection} from "../connection";
 import {el, setText} from "../dom";
 import {ErrorCode, RunExhibitionSchema} from "../protocol/generated/remote_pb";
 import type {Exhibition} from "../protocol/generated/remote_pb";
-import * as useCases from "../protocol/use_cases";
 import {Store} from "../store";
 import {reasonInWords} from "../text/texts";
-import {GatewayTransport, isInvitation} from "../transport";
+import {GatewayTransport, isInvitation} from "../relay/gateway_transport";
 import {tell} from "./exhibition_texts";
 import type {ExhibitionKey} from "./exhibition_texts";
 import {fromAddress, pairingToken, takeLanguage} from "./page";
@@ -62,7 +61,7 @@ class OperatorPage {
   private fill(): void {
     this.marks = [];
     this.body.replaceChildren(
-      el("button", {class: "stop", onclick: () => void this.connection.request(useCases.stop())}, tell("stop")),
+      el("button", {class: "stop", onclick: () => void this.connection.request({case: "stop", value: {}})}, tell("stop")),
       this.toggle(({isPaused}) => isPaused, (isPaused) => ({isPaused}), (isOn) => tell(isOn ? "resume" : "pause")),
       this.button("skip", {skips: true}),
       this.button("moreTime", {moreTime: kMoreTime}),

@@ -5,6 +5,7 @@ import type {Commander} from "../commander";
 import {el, setText} from "../dom";
 import {AttendSchema, ErrorCode, Exhibition_Phase as Phase} from "../protocol/generated/remote_pb";
 import type {Exhibition} from "../protocol/generated/remote_pb";
+import {keep, recall} from "../storage";
 import type {Store} from "../store";
 import {getLanguage} from "../text/texts";
 import {setWords, tell} from "./exhibition_texts";
@@ -18,14 +19,10 @@ const kWarnPattern = [100, 60, 100];
 
 /** Random text by which the gateway knows this phone again; in a browser without memory it is new at each visit. */
 function visitorKey(memory: Storage | null): string {
-  const known = memory?.getItem(kKey);
-  if (known) return known;
+  const known = recall<string>(memory, kKey);
+  if (typeof known === "string") return known;
   const key = Array.from(crypto.getRandomValues(new Uint8Array(16)), (byte) => byte.toString(16).padStart(2, "0")).join("");
-  try {
-    memory?.setItem(kKey, key);
-  } catch {
-    // A second scan is another visitor then.
-  }
+  keep(memory, kKey, key);
   return key;
 }
 

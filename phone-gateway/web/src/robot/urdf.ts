@@ -104,25 +104,17 @@ function parseOrigin(element: Element): {xyz: Triple; rpy: Triple} {
 
 function sortByDepth(root: string, joints: UrdfJoint[]): UrdfJoint[] {
   const sorted: UrdfJoint[] = [];
-  const reached = [root];
-  for (let link = reached.shift(); link !== undefined; link = reached.shift()) {
-    for (const joint of joints) {
-      if (joint.parent !== link) continue;
-      sorted.push(joint);
-      reached.push(joint.child);
-    }
-    if (sorted.length > joints.length) throw new Error("the robot's joints form a loop");
+  for (let parents = [root]; parents.length > 0 && sorted.length <= joints.length;) {
+    const next = joints.filter(({parent}) => parents.includes(parent));
+    sorted.push(...next);
+    parents = next.map(({child}) => child);
   }
   if (sorted.length !== joints.length) throw new Error("the robot's joints form a loop");
   return sorted;
 }
 
 function children(element: Element, tag: string): Element[] {
-  const found: Element[] = [];
-  for (let node = element.firstChild; node; node = node.nextSibling) {
-    if (node.nodeType === 1 && (node as Element).tagName === tag) found.push(node as Element);
-  }
-  return found;
+  return Array.from(element.childNodes).filter((node): node is Element => node.nodeName === tag);
 }
 
 function only(element: Element, tag: string): Element {

@@ -1,0 +1,25 @@
+/** Something that is offered above a place for some seconds, where the finger does not cover it. */
+
+const kShownMs = 6000;
+
+export class Offer {
+  private timer: ReturnType<typeof setTimeout> | undefined;
+
+  /** @param margin  half the element's width and some air, px. @param ended  called when it is taken back. */
+  constructor(private readonly element: HTMLElement, private readonly margin: number, private readonly ended: () => void = () => {}) {}
+
+  /** @param x,y  px from the top left of what it lies in. @param width  of that, px. */
+  show(x: number, y: number, width: number): void {
+    clearTimeout(this.timer);
+    this.timer = setTimeout(() => this.clear(), kShownMs);
+    const left = Math.min(Math.max(x, this.margin), width - this.margin);
+    this.element.style.transform = `translate(${left}px, ${y}px) translate(-50%, calc(-100% - 30px))`;
+    this.element.hidden = false;
+  }
+
+  clear(): void {
+    clearTimeout(this.timer);
+    this.element.hidden = true;
+    this.ended();
+  }
+}
