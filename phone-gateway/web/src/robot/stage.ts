@@ -27,10 +27,11 @@ const kFieldOfViewDeg = 32;
 /** Device pixels per CSS pixel at the least. Below the first, pixels are seen as squares; a processor that draws
  * has rather squares than a robot that comes late. */
 const kMinPixelRatio = 0.75;
-const kSoftwarePixelRatio = 0.5;
-/** Time between two frames at the least where a processor draws, ms. At 60 frames a second a page took 1.5 cores, perhaps of
- * those that simulate the robot. */
-const kSoftwareFramePeriodMs = 50;
+const kSoftwarePixelRatio = 0.75;
+const kMinSoftwarePixelRatio = 0.5;
+/** Time between two frames at the least where a processor draws, ms: two of the screen's, 30 a second. More would take what
+ * simulates the robot, perhaps on the same processor. */
+const kSoftwareFramePeriodMs = 30;
 /** Where a processor draws, what stands still for so long, ms, is drawn once more with so many pixels: smooth edges. */
 const kRestMs = 500;
 const kRestPixelRatio = 1.5;
@@ -100,7 +101,7 @@ export class Stage {
     this.renderer = new WebGLRenderer({canvas, context: gl, alpha: true});
     this.surface = new RobotSurface(isSoftware);
     this.framePeriodMs = isSoftware ? kSoftwareFramePeriodMs : 0;
-    this.budget = isSoftware ? new PixelBudget(kSoftwarePixelRatio, false, kSoftwarePixelRatio)
+    this.budget = isSoftware ? new PixelBudget(kSoftwarePixelRatio, false, kMinSoftwarePixelRatio)
         : new PixelBudget(Math.min(window.devicePixelRatio, 2), true, kMinPixelRatio);
     this.renderer.toneMapping = ACESFilmicToneMapping;
     this.renderer.shadowMap.enabled = true;
@@ -244,7 +245,7 @@ export class Stage {
 
   /** A drawing of each posture. */
   drawPostures(figure: PostureFigure, postures: Postures): Promise<Map<string, HTMLCanvasElement>> {
-    return figure.draw(this.renderer, postures);
+    return figure.draw(this.renderer, postures, !this.surface.isPlain);
   }
 
   /** Joint group that moves the part of the robot under a point, px from the top left; empty if there is none. */
