@@ -65,10 +65,10 @@ export class SpeechSheet {
     this.element.showModal();
   }
 
-  /** @param tags  BCP 47. @param chosen  one of them; empty: the page's. */
+  /** @param tags  BCP 47. @param chosen  one of them; else it is the page's, or English. */
   setLanguages(tags: readonly string[], chosen: string): void {
     const names = new Intl.DisplayNames([getLanguage()], {type: "language"});
-    const selected = tags.includes(chosen) ? chosen : getLanguage();
+    const selected = [chosen, getLanguage(), "en"].find((tag) => tags.includes(tag));
     const options = tags.map((tag) => ({tag, name: names.of(tag) ?? tag}))
         .sort((a, b) => a.name.localeCompare(b.name));
     this.language.replaceChildren(...options.map(({tag, name}) =>
