@@ -338,7 +338,7 @@ export class App implements Actions {
   private markShown(): void {
     this.isShown = true;
     performance.mark("robot-shown");
-    registerOfflineShell();
+    void registerOfflineShell();
   }
 
   private tapped(x: number, y: number): void {
