@@ -16,9 +16,9 @@ const kColors: {readonly [kind in Vision_Detection_Kind]?: string} = {
 const kOtherColor = "#6cc8ff";
 
 export class ImageMarks {
-  /** In fractions of the image. */
+  /** In fractions of the image, which covers its place, or fits it where that has its shape. */
   private readonly marks = shape("g", {transform: "scale(4 3)"});
-  readonly element = shape("svg", {class: "image-marks", viewBox: "0 0 4 3", "aria-hidden": "true"}, this.marks);
+  readonly element = shape("svg", {class: "image-marks", viewBox: "0 0 4 3", preserveAspectRatio: "xMidYMid slice", "aria-hidden": "true"}, this.marks);
   readonly button: HTMLButtonElement;
   private timer: ReturnType<typeof setTimeout> | undefined;
 
