@@ -114,6 +114,7 @@ for (const {name, size: [width, height], options, ...page} of kPasses.filter((pa
     await click(ana, '[data-name="LyingBack"]');
     await until("it lies", async () => (await ana.look("state.state.posture")) === "LyingBack");
     await look(ana, "lying");
+    assert.equal(await ana.page.locator(".strips .chip:visible").count(), 1, "lying, it can only get up");
     const ben = await open(fake.url, "Ben");
     await ben.sees("controller");
     await click(ben, ".driver-button");
