@@ -79,8 +79,8 @@ export class Stage {
   private readonly sun = new DirectionalLight(0xfff2e0, 2.6);
   private readonly budget: PixelBudget;
   private readonly framePeriodMs: number;
-  private robot: RobotTree | null = null;
-  /** Height of the robot that is drawn, m; only read by others. */
+  /** The robot that is shown; null before the first. Only read by others, as its height, m. */
+  robot: RobotTree | null = null;
   robotHeight = kUnknownHeight;
   private lastFrameMs = 0;
   private isRunning = false;
@@ -111,11 +111,6 @@ export class Stage {
     this.scene.add(this.robotAxes, this.floor.object);
     new ResizeObserver(() => this.resize()).observe(canvas);
     this.resize();
-  }
-
-  /** The robot that is shown; null before the first. */
-  get robotTree(): RobotTree | null {
-    return this.robot;
   }
 
   setRobot(robot: RobotTree): void {

@@ -5,8 +5,9 @@ import {say} from "../text/texts";
 
 /** "Red team, number 3"; empty without either. */
 export function teamInWords({team, number}: RobotList_Robot): string {
-  return [team === undefined ? "" : say(team === 0 ? "lobby.team0" : "lobby.team1"),
-          number > 0 ? say("lobby.number", {number}) : ""].filter((word) => word !== "").join(", ");
+  const first = team === undefined ? "" : say(team === 0 ? "lobby.team0" : "lobby.team1");
+  const second = number > 0 ? say("lobby.number", {number}) : "";
+  return first && second ? say("lobby.list", {first, second}) : first || second;
 }
 
 /** The number on the team's color; what it means is said for those who do not see it. */

@@ -63,7 +63,7 @@ export class Status {
         say(control?.isMuted ? "control.muted" : "control.free");
     const isNext = this.isNext;
     const next = !control?.nextId ? "" : isNext ? say("control.youNext") : say("control.next", {name: control.nextName});
-    setText(this.driver, next ? `${driver}, ${next}` : driver);
+    setText(this.driver, next ? say("lobby.list", {first: driver, second: next}) : driver);
     // While another client waits there is nothing to ask for, and its request has its own button.
     this.ask.hidden = who === "free" || (control?.isMuted ?? false) || (next !== "" && !isNext);
     setText(this.ask, say(who === "mine" ? "control.release" : isNext ? "control.withdraw" : "control.ask"));

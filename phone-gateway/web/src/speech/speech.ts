@@ -65,7 +65,7 @@ export class Speech {
 
   private showLights(rgb: readonly number[]): void {
     const {robot} = this.store.get();
-    const tree = this.stage.robotTree;
+    const tree = this.stage.robot;
     if (!robot || !tree) return;
     if (this.lights?.tree !== tree) {
       this.lights?.dispose();
