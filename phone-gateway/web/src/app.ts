@@ -160,11 +160,7 @@ export class App implements Actions {
     this.image.onSwap = (isLarge) => this.controllerScreen.showCameraLarge(isLarge);
     this.controllerScreen.setSwapped(settings.isSwapped);
     this.menu = new MenuSheet(settings.isSwapped, this);
-    this.lobby = new Lobby(this.store, this.commander, this.messages, {
-      letGo: () => this.leaveControls(),
-      subscribe: () => this.subscribe(),
-      leave: () => this.leave(),
-    });
+    this.lobby = new Lobby(this.store, this.commander, this.messages, this);
     const messages = messageList(this.store);
     this.store.watch((state) => state.isChoosingRobot, (isLobby) => (isLobby ? this.lobby.screen.element : notes).append(messages));
     root.append(new LoadingScreen(this.store, () => void this.view.load()).element,
@@ -230,7 +226,7 @@ export class App implements Actions {
     this.isVisiting = true;
     const {Visit} = await import("./exhibition/visit");
     await Visit.begin(this.store, this.commander, this.root, this.root.querySelector<HTMLElement>(".notes")!, storage(),
-                      () => this.leaveControls());
+                      () => this.letGo());
   }
 
   /** The stage has the colors of the style sheet. */
@@ -302,13 +298,13 @@ export class App implements Actions {
   }
 
   /** Drive mode, with nothing held. */
-  private leaveControls(): void {
+  letGo(): void {
     if (this.store.get().isJointsMode) this.setJointsMode(false);
     this.held.release();
     this.walkHere.clear();
   }
 
-  private subscribe(): void {
+  subscribe(): void {
     if (this.store.get().phase !== "connected") return;
     // Nothing is seen of the robot in the list of robots either.
     const isHidden = document.visibilityState === "hidden" || this.store.get().isChoosingRobot;

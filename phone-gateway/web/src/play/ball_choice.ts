@@ -4,13 +4,10 @@ import {el} from "../dom";
 import {Play_Behavior} from "../protocol/generated/remote_pb";
 import {say} from "../text/texts";
 
-/** Half the choice's width and some air, px. */
-const kMargin = 110;
-
 export class BallChoice {
   readonly element = el("div", {class: "ball-choice", role: "group", "aria-label": say("play.ball"), hidden: true},
     this.button("go-to-ball", Play_Behavior.GO_TO_BALL), this.button("kick", Play_Behavior.KICK));
-  private readonly choice = new Offer(this.element, kMargin);
+  private readonly choice = new Offer(this.element);
 
   constructor(private readonly choose: (behavior: Play_Behavior) => void) {}
 

@@ -32,6 +32,8 @@ const kMinSoftwarePixelRatio = 0.5;
 /** Time between two frames at the least where a processor draws, ms: two of the screen's, 30 a second. More would take what
  * simulates the robot, perhaps on the same processor. */
 const kSoftwareFramePeriodMs = 30;
+/** The same where that is too much. */
+const kSlowFramePeriodMs = 50;
 /** Where a processor draws, what stands still for so long, ms, is drawn once more with so many pixels: smooth edges. */
 const kRestMs = 500;
 const kRestPixelRatio = 1.5;
@@ -164,7 +166,8 @@ export class Stage {
     if (this.isChanging && this.budget.frame(dt)) this.resize();
     this.isOutdated ||= hasMoved || this.hasEyeMoved();
     this.isChanging = this.isOutdated;
-    if (this.isOutdated && nowMs - this.drawnMs >= this.framePeriodMs) this.draw(nowMs);
+    const period = this.framePeriodMs > 0 && this.budget.isExhausted ? kSlowFramePeriodMs : this.framePeriodMs;
+    if (this.isOutdated && nowMs - this.drawnMs >= period) this.draw(nowMs);
     else if (this.framePeriodMs > 0 && !this.isSharp && nowMs - this.drawnMs > kRestMs) this.draw(nowMs, true);
   }
 

@@ -16,6 +16,10 @@ export interface Actions {
   /** Connects at once. */
   retry(): void;
   leave(): void;
+  /** Ends all driving and joints mode. */
+  letGo(): void;
+  /** What is streamed depends on what is seen. */
+  subscribe(): void;
   /** Shows the robots to choose from. */
   changeRobot(): void;
   openMenu(): void;

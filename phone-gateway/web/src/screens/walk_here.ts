@@ -10,13 +10,11 @@ import {say} from "../text/texts";
 const kMaxDistance = 3;
 /** Taps closer to the robot than this are not walk goals, m. */
 const kMinDistance = 0.15;
-/** Half the button's width and some air, px. */
-const kMargin = 80;
 
 export class WalkHere {
   readonly element = el("button", {class: "button primary walk-here", hidden: true, onclick: () => this.chosen()}, say("drive.walkHere"));
   private spot: {x: number; y: number} | null = null;
-  private readonly offer = new Offer(this.element, kMargin, () => this.forget());
+  private readonly offer = new Offer(this.element, () => this.forget());
 
   constructor(private readonly stage: Stage, private readonly go: (pose: RelativePose) => void) {}
 
