@@ -78,15 +78,6 @@ class Mesh:
                 normals.append(rounded(normalized(smooth), NORMAL_STEP))
             self.triangles.append((material, corners, normals))
 
-    def mirrored(self):
-        """Mirror image at the plane y = 0; the order of the corners is reversed, so that they stay
-        counter-clockwise."""
-        mirror = Mesh()
-        for material, corners, normals in self.triangles:
-            flip = [[(x, -y, z) for x, y, z in reversed(vectors)] for vectors in (corners, normals)]
-            mirror.triangles.append((material, *flip))
-        return mirror
-
     def write(self, path):
         """Writes binary glTF 2.0: one mesh with one primitive for each material."""
         file = _GlbFile()

@@ -140,6 +140,15 @@ void append(Mesh& mesh, const Mesh& part, const Eigen::Vector3f& offset) {
   for (const uint32_t index : part.indices) mesh.indices.push_back(first + index);
 }
 
+Mesh mirrored(Mesh mesh) {
+  for (Vertex& vertex : mesh.vertices) {
+    vertex.position.y() *= -1;
+    vertex.normal.y() *= -1;
+  }
+  std::reverse(mesh.indices.begin(), mesh.indices.end());
+  return mesh;
+}
+
 Mesh simplified(const Mesh& mesh, float mean_error) {
   if (mesh.vertices.empty()) return mesh;
   std::vector<uint32_t> triangles = welded(mesh);

@@ -45,6 +45,9 @@ BoundingSphere bounding_sphere(const Mesh& mesh);
 /** Appends `part`, translated by `offset` (m), to `mesh`. */
 void append(Mesh& mesh, const Mesh& part, const Eigen::Vector3f& offset = Eigen::Vector3f::Zero());
 
+/** Mirror image at the plane y = 0, whose triangles face outwards again. */
+Mesh mirrored(Mesh mesh);
+
 /** Simplifies a mesh by edge collapses in the order of their quadric errors (Garland and Heckbert,
  * 1997). Creases and borders between colors are kept.
  * @param mean_error  Largest error of a collapse, m: the distance of the old surface from the new

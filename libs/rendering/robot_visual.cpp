@@ -29,7 +29,7 @@ Mesh make_mesh(const Shape& shape) {
     case Shape::Kind::kCapsule:
       return make_capsule(radius, length, kPrimitiveColor);
     case Shape::Kind::kMesh:
-      return load_mesh(shape.mesh);
+      return shape.is_mirrored ? mirrored(load_mesh(shape.mesh)) : load_mesh(shape.mesh);
   }
   throw ModelError("shape " + shape.name + " has an unknown kind");
 }

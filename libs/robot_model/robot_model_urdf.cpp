@@ -253,8 +253,10 @@ Shape UrdfFile::convert(const urdf::Geometry* geometry, const urdf::Pose& origin
       const auto* mesh = static_cast<const urdf::Mesh*>(geometry);
       shape.kind = Shape::Kind::kMesh;
       shape.mesh = mesh_path(mesh->filename, element);
-      require(mesh->scale.x == 1 && mesh->scale.y == 1 && mesh->scale.z == 1, element,
-              "a mesh must be in metres, without a scale");
+      shape.is_mirrored = mesh->scale.y == -1;
+      require(mesh->scale.x == 1 && (mesh->scale.y == 1 || shape.is_mirrored) && mesh->scale.z == 1,
+              element,
+              "a mesh must be in metres, without a scale other than \"1 -1 1\", its mirror image");
       break;
     }
   }

@@ -26,6 +26,9 @@ struct Shape {
   double length = 0;
   /** Mesh: absolute path of the file, which is in metres. */
   std::filesystem::path mesh;
+  /** Mesh: the mirror image of what the file has, at its plane y = 0; in the URDF the scale "1 -1
+   * 1". */
+  bool is_mirrored = false;
 };
 
 /** A rigid link of the robot. The origin of its frame is on the axis of the joint that moves it. */

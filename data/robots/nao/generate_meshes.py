@@ -6,7 +6,7 @@ in this file are in meters. They were chosen so that the outer dimensions agree 
 millimeters (573 mm high, 268 mm over the upper arms).
 
 Adjacent links overlap in a ball or a cylinder about the axis of their joint, so that no posture shows a gap.
-Only the left links are modeled; the right ones are their mirror images.
+Only the left links are modeled; the URDF takes their mirror images for the right ones.
 """
 
 import argparse
@@ -271,9 +271,7 @@ def main():
     for name, make in CENTER.items():
         make().write(folder / f"{name}.glb")
     for name, make in LEFT.items():
-        mesh = make()
-        mesh.write(folder / f"L{name}.glb")
-        mesh.mirrored().write(folder / f"R{name}.glb")
+        make().write(folder / f"L{name}.glb")
 
 
 if __name__ == "__main__":

@@ -132,6 +132,7 @@ void add_overview(naoremote::RobotDescription& robot) {
   add_label(robot, "camera", kOverviewCamera, "en", "Overview");
   add_label(robot, "camera", kOverviewCamera, "pt", "Vista geral");
   add_label(robot, "camera", kOverviewCamera, "de", "Übersicht");
+  add_label(robot, "camera", kOverviewCamera, "ar", "نظرة عامة");
 }
 
 }  // namespace nao::gateway

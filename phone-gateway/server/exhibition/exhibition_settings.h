@@ -31,7 +31,7 @@ struct ExhibitionSettings {
   bool looks_at_ball = false;
   /** Spoken in turn, by BCP 47 tag. */
   std::vector<std::pair<std::string, std::string>> greetings;
-  /** Language of the big display and the operator's page: "en", "pt" or "de". */
+  /** Language of the big display and the operator's page: "en", "pt", "de" or "ar". */
   std::string language = "en";
   std::vector<std::string> nicknames;
 };

@@ -13,6 +13,9 @@ async function keepShell() {
   await cache.addAll(named.filter((path) => !path.endsWith(".png")));
 }
 
+/** What the page has fetched beside that before this worker was there, as the texts of its language. */
+self.addEventListener("message", (event) => event.waitUntil(caches.open(kCache).then((cache) => cache.addAll(event.data))));
+
 self.addEventListener("activate", (event) => {
   event.waitUntil(caches.keys().then((names) => Promise.all(
       names.filter((name) => name !== kCache).map((name) => caches.delete(name))))

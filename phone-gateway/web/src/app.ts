@@ -18,7 +18,6 @@ import {MatchEvents} from "./match/match_events";
 import {Messages} from "./messages";
 import {registerOfflineShell} from "./offline";
 import {Mode, Notice_Component} from "./protocol/generated/remote_pb";
-import * as useCases from "./protocol/use_cases";
 import {Perception} from "./play/perception";
 import {PlayStrip} from "./play/play_strip";
 import {loadFieldLines} from "./robot/load_field";
@@ -26,8 +25,8 @@ import {watchContext} from "./robot/lost_context";
 import {RobotView} from "./robot/robot_view";
 import {kDriveView, kJointsView, Stage} from "./robot/stage";
 import {attachGestures} from "./robot/stage_gestures";
+import type {Actions, ConnectionForm} from "./screens/actions";
 import {ConnectionScreen} from "./screens/connection_screen";
-import type {ConnectionForm} from "./screens/connection_screen";
 import {causeBar} from "./screens/cause";
 import {ControllerScreen} from "./screens/controller_screen";
 import {JointsPanel} from "./screens/joints_panel";
@@ -47,7 +46,8 @@ import {bodyInWords} from "./text/body";
 import {findGateways} from "./nearby";
 import {say} from "./text/texts";
 import type {Language} from "./text/texts";
-import {GatewayTransport} from "./transport";
+import {GatewayTransport} from "./relay/gateway_transport";
+import {kRefusalPattern, kTapPattern, vibrate} from "./vibrate";
 import {WakeLock} from "./wake_lock";
 
 const kSoftware = "nao-phone-app 0.1.0";
@@ -58,14 +58,9 @@ const kImageRateHz = 15;
 const kNarrowStateRateHz = 25;
 const kNarrowImage = {rate: 1, width: 160, quality: 30};
 
-/** Felt: a tap that did something, the end of a joint's range, a refusal; ms on, off, on. */
-const kTapPattern = 12;
-const kLimitPattern = 30;
-const kRefusalPattern = [25, 60, 25];
-
 type ScreenName = "loading" | "connection" | "lobby" | "controller";
 
-export class App {
+export class App implements Actions {
   private readonly store = new Store();
   private readonly messages = new Messages(this.store);
   private readonly transport = new GatewayTransport(new URL(location.href));
@@ -77,7 +72,7 @@ export class App {
       this.turnCamera(yaw, pitch));
   private readonly jointDriver = new JointDriver((change) => {
     this.teach.turned(change);
-    this.commander.stream(useCases.changeJoints(change));
+    this.commander.stream({case: "changeJoints", value: change});
   });
   private readonly tilt = new TiltSensor();
   private readonly sound = new Sound();
@@ -141,7 +136,7 @@ export class App {
     attachGestures(this.stage, (x, y) => this.tapped(x, y), (x, y) => this.teach.grab(x, y));
     this.jointDriver.isInFront = () => this.stage.orbit.isInFront;
     this.walkHere = new WalkHere(this.stage, ({x, y, theta}) =>
-        void this.commander.command(useCases.moveTo(x, y, theta)));
+        void this.commander.command({case: "moveTo", value: {x, y, theta}}));
     this.commander.onRefusal = () => vibrate(kRefusalPattern);
     this.held.yieldTo(this.commander, this.messages);
     this.held.releaseScreen = () => {
@@ -149,55 +144,23 @@ export class App {
       this.teach.endDrag();
     };
     this.speech = new Speech(this.store, this.commander, this.stage, storage(), this.sound, () => this.subscribe());
-    this.connectionScreen = new ConnectionScreen(this.store, {
-      connect: (form) => this.connect(form),
-      connectByBluetooth: (form, device) => this.connectByBluetooth(form, device),
-      cancel: () => this.connection.disconnect(),
-      retryNow: () => this.connection.retryNow(),
-    });
+    this.connectionScreen = new ConnectionScreen(this.store, this);
     const joints = new JointsPanel(this.store, this.jointDriver, this.teach.bar, {
       reset: () => void this.teach.leave().then(() => this.goToPosture(this.store.get().robot?.readyPosture)),
       relax: (group) => void this.teach.relax(group),
-      select: (selectedGroup) => this.store.set({selectedGroup}),
-      atLimit: () => vibrate(kLimitPattern),
     });
     this.play = new PlayStrip(this.store, this.commander, this.messages);
     this.perception = new Perception(this.store, this.stage, this.image, this.play, settings.hasBoxes,
                                      (hasBoxes) => this.keep({hasBoxes}));
     const view = el("div", {class: "view"}, canvas, this.walkHere.element, lost);
-    const notes = el("div", {class: "notes"}, causeBar(this.store, this.commander, {
-      retryNow: () => this.retry(),
-      openForm: () => this.store.set({isFormOpen: true}),
-      changeRobot: () => this.lobby.open(),
-    }));
+    const notes = el("div", {class: "notes"}, causeBar(this.store, this.commander, this));
     this.controllerScreen = new ControllerScreen(this.store, this.commander, this.walk, view, this.image, joints, this.tilt,
-                                                 this.play, this.perception.map.element, notes, {
-      openMenu: () => this.openMenu(),
-      openSpeech: () => this.openSpeech(),
-      changeRobot: () => this.lobby.open(),
-      setJointsMode: (isJointsMode) => this.setJointsMode(isJointsMode),
-      stop: () => this.stop(),
-      explainLink: () => this.explainLink(),
-      walked: () => this.keep({hasWalked: true}),
-    });
+                                                 this.play, this.perception.map.element, notes, this);
     if (!settings.hasWalked) this.controllerScreen.showHint();
     this.image.onSwap = (isLarge) => this.controllerScreen.showCameraLarge(isLarge);
     this.controllerScreen.setSwapped(settings.isSwapped);
-    this.menu = new MenuSheet(settings.isSwapped, {
-      setTilt: (isOn) => this.setTilt(isOn),
-      setSwapped: (isSwapped) => {
-        this.keep({isSwapped});
-        this.controllerScreen.setSwapped(isSwapped);
-      },
-      setLanguage: (language) => this.setLanguage(language),
-      changeRobot: () => this.lobby.open(),
-      leave: () => this.leave(),
-    });
-    this.lobby = new Lobby(this.store, this.commander, this.messages, {
-      letGo: () => this.leaveControls(),
-      subscribe: () => this.subscribe(),
-      leave: () => this.leave(),
-    });
+    this.menu = new MenuSheet(settings.isSwapped, this);
+    this.lobby = new Lobby(this.store, this.commander, this.messages, this);
     const messages = messageList(this.store);
     this.store.watch((state) => state.isChoosingRobot, (isLobby) => (isLobby ? this.lobby.screen.element : notes).append(messages));
     root.append(new LoadingScreen(this.store, () => void this.view.load()).element,
@@ -262,8 +225,8 @@ export class App {
     if (this.isVisiting) return;
     this.isVisiting = true;
     const {Visit} = await import("./exhibition/visit");
-    new Visit(this.store, this.commander, this.root, this.root.querySelector<HTMLElement>(".notes")!, storage(),
-              () => this.leaveControls());
+    await Visit.begin(this.store, this.commander, this.root, this.root.querySelector<HTMLElement>(".notes")!, storage(),
+                      () => this.letGo());
   }
 
   /** The stage has the colors of the style sheet. */
@@ -288,7 +251,7 @@ export class App {
     if (fromUrl || known || isLoopback(location.hostname)) this.open();
   }
 
-  private connect({address, token, clientName}: ConnectionForm): void {
+  connect({address, token, clientName}: ConnectionForm): void {
     this.keep({clientName});
     this.token = token;
     this.transport.device = null;
@@ -298,7 +261,7 @@ export class App {
     else this.open();
   }
 
-  private connectByBluetooth({token, clientName}: ConnectionForm, device: BluetoothDevice): void {
+  connectByBluetooth({token, clientName}: ConnectionForm, device: BluetoothDevice): void {
     this.keep({clientName});
     this.token = token;
     this.transport.device = device;
@@ -311,12 +274,12 @@ export class App {
   }
 
   /** At once; also after a refusal that waiting alone would not change. */
-  private retry(): void {
+  retry(): void {
     if (this.store.get().phase === "waiting") this.connection.retryNow();
     else this.open();
   }
 
-  private leave(): void {
+  leave(): void {
     this.held.release();
     this.connection.disconnect();
   }
@@ -335,25 +298,23 @@ export class App {
   }
 
   /** Drive mode, with nothing held. */
-  private leaveControls(): void {
+  letGo(): void {
     if (this.store.get().isJointsMode) this.setJointsMode(false);
     this.held.release();
     this.walkHere.clear();
   }
 
-  private subscribe(): void {
+  subscribe(): void {
     if (this.store.get().phase !== "connected") return;
     // Nothing is seen of the robot in the list of robots either.
     const isHidden = document.visibilityState === "hidden" || this.store.get().isChoosingRobot;
     const {isNarrow} = this.transport;
     const {camera} = this.image;
-    const request = isNarrow ? {camera, width: kNarrowImage.width, quality: kNarrowImage.quality} :
+    const image = isNarrow ? {camera, width: kNarrowImage.width, quality: kNarrowImage.quality} :
         {camera, width: this.image.isLarge ? 640 : 320};
-    const [stateRate, imageRate] = isNarrow ? [kNarrowStateRateHz, kNarrowImage.rate] : [kStateRateHz, kImageRateHz];
-    void this.connection.request(useCases.subscribe(isHidden ? 0 : stateRate,
-                                                    isHidden ? 0 : imageRate, request,
-                                                    {audio: this.speech.isPlaying && !isNarrow, playState: true,
-                                                     vision: !isHidden}));
+    const [stateRate, imageRate] = isHidden ? [0, 0] : isNarrow ? [kNarrowStateRateHz, kNarrowImage.rate] : [kStateRateHz, kImageRateHz];
+    void this.connection.request({case: "subscribe", value: {
+      stateRate, imageRate, image, audio: this.speech.isPlaying && !isNarrow, playState: true, vision: !isHidden}});
   }
 
   private shown(): void {
@@ -373,7 +334,7 @@ export class App {
   private markShown(): void {
     this.isShown = true;
     performance.mark("robot-shown");
-    registerOfflineShell();
+    void registerOfflineShell();
   }
 
   private tapped(x: number, y: number): void {
@@ -387,7 +348,7 @@ export class App {
     this.store.set({selectedGroup: group});
   }
 
-  private setJointsMode(isJointsMode: boolean): void {
+  setJointsMode(isJointsMode: boolean): void {
     this.held.release();
     this.walkHere.clear();
     this.store.set({isJointsMode, selectedGroup: ""});
@@ -403,10 +364,11 @@ export class App {
     const {robot} = this.store.get();
     if (!robot) return;
     const vx = x * (x < 0 ? -robot.minVx : robot.maxVx);
-    this.commander.stream(useCases.walkTurn(vx, y * robot.maxVy, theta * robot.maxWz, isLocked));
+    this.commander.stream({
+      case: "walkTurn", value: {vx, vy: y * robot.maxVy, wz: theta * robot.maxWz, isHeld: isLocked}});
   }
 
-  private stop(): void {
+  stop(): void {
     this.held.release();
     this.teach.cancel();
     vibrate(kTapPattern);
@@ -438,33 +400,50 @@ export class App {
   }
 
   private goToPosture(posture: string | undefined): void {
-    if (posture) void this.commander.command(useCases.goToPosture(posture));
+    if (posture) void this.commander.command({case: "goToPosture", value: {posture}});
   }
 
   private kick(side: "left" | "right"): void {
     const roles = this.store.get().robot?.actionRoles ?? [];
     const action = roles.find((role) => role.kind === "kick" && role.side === side);
-    if (action) void this.commander.command(useCases.doAction(action.name));
+    if (action) void this.commander.command({case: "doAction", value: {action: action.name}});
   }
 
   /** Turns what carries the camera. */
   private turnCamera(yaw: number, pitch: number): void {
     const group = this.store.get().robot?.cameraGroup;
-    if (group) this.commander.stream(useCases.changeJoints({group, yaw, pitch, roll: 0}));
+    if (group) this.commander.stream({case: "changeJoints", value: {group, yaw, pitch, roll: 0}});
   }
 
-  private openMenu(): void {
+  openForm(): void {
+    this.store.set({isFormOpen: true});
+  }
+
+  changeRobot(): void {
+    this.lobby.open();
+  }
+
+  walked(): void {
+    this.keep({hasWalked: true});
+  }
+
+  setSwapped(isSwapped: boolean): void {
+    this.keep({isSwapped});
+    this.controllerScreen.setSwapped(isSwapped);
+  }
+
+  openMenu(): void {
     this.held.release();
     const {state, robot, robots} = this.store.get();
     this.menu.open(bodyInWords(state?.body, robot), robots.length > 1);
   }
 
-  private openSpeech(): void {
+  openSpeech(): void {
     this.held.release();
     this.speech.sheet.open();
   }
 
-  private async setTilt(isOn: boolean): Promise<boolean> {
+  async setTilt(isOn: boolean): Promise<boolean> {
     const isTilting = isOn && (await this.tilt.switchOn());
     if (!isTilting) this.tilt.switchOff();
     this.controllerScreen.setTilt(isTilting);
@@ -472,13 +451,13 @@ export class App {
   }
 
   /** Words are put in place once; another language starts the page again, which connects by itself. */
-  private setLanguage(language: Language): void {
+  setLanguage(language: Language): void {
     this.keep({language});
     this.held.release();
     location.reload();
   }
 
-  private explainLink(): void {
+  explainLink(): void {
     const state = this.store.get();
     const words = linkInWords(state);
     this.messages.show("info", linkQuality(state) === "poor" ? `${words}. ${say("drive.linkPoor")}` : words);
@@ -517,9 +496,4 @@ export class App {
 
 function isLoopback(host: string): boolean {
   return host === "localhost" || host === "127.0.0.1" || host === "[::1]";
-}
-
-/** Felt where the phone can; silently nothing where it cannot. */
-function vibrate(pattern: VibratePattern): void {
-  navigator.vibrate?.(pattern);
 }

@@ -5,7 +5,6 @@ import {Messages} from "./messages";
 import type {UseCase} from "./protocol/codec";
 import {ControlSchema, ErrorCode, Notice_Component, Notice_Kind, Notice_Status, NoticeSchema, ResponseSchema, RobotDescriptionSchema} from "./protocol/generated/remote_pb";
 import type {Response} from "./protocol/generated/remote_pb";
-import * as useCases from "./protocol/use_cases";
 import {Store} from "./store";
 import {setLanguage} from "./text/texts";
 
@@ -47,8 +46,8 @@ describe("Commander", () => {
   const texts = () => store.get().messages.map(({text}) => text);
 
   it("takes control with the first command if it is free, and once for two simultaneous commands", async () => {
-    await Promise.all([commander.command(useCases.walkTurn(1, 0, 0)),
-                       commander.command(useCases.goToPosture("Stand"))]);
+    await Promise.all([commander.command({case: "walkTurn", value: {vx: 1}}),
+                       commander.command({case: "goToPosture", value: {posture: "Stand"}})]);
     expect(asked).toEqual(["takeControl", "walkTurn", "goToPosture"]);
     expect(store.get().control?.isMine).toBe(true);
   });
@@ -56,18 +55,18 @@ describe("Commander", () => {
   it("lets a motion win over what is held, whichever button begins it", async () => {
     const released: string[] = [];
     commander.onMotion = () => released.push("held controls");
-    for (const motion of [useCases.goToPosture("Stand"), useCases.doAction("kick-left"), useCases.moveTo(1, 0, 0)]) {
+    for (const motion of [{case: "goToPosture", value: {posture: "Stand"}}, {case: "doAction", value: {action: "kick-left"}}, {case: "moveTo", value: {x: 1}}] as const) {
       await commander.command(motion);
     }
     expect(released).toHaveLength(3);
-    commander.stream(useCases.walkTurn(1, 0, 0));
-    commander.stream(useCases.changeJoints({group: "head", yaw: 0.1, pitch: 0, roll: 0}));
+    commander.stream({case: "walkTurn", value: {vx: 1}});
+    commander.stream({case: "changeJoints", value: {group: "head", yaw: 0.1, pitch: 0, roll: 0}});
     expect(released).toHaveLength(3);
   });
 
   it("sends no command while the operator lets it watch only, and says so", async () => {
     store.set({control: create(ControlSchema, {isMuted: true})});
-    expect(await commander.command(useCases.goToPosture("Stand"))).toBe(false);
+    expect(await commander.command({case: "goToPosture", value: {posture: "Stand"}})).toBe(false);
     expect(asked).toEqual([]);
     expect(texts()).toEqual(["You may only watch"]);
   });
@@ -82,7 +81,7 @@ describe("Commander", () => {
 
   it("sends no command while another client drives, and names it", async () => {
     store.set({control: bens});
-    expect(await commander.command(useCases.goToPosture("Stand"))).toBe(false);
+    expect(await commander.command({case: "goToPosture", value: {posture: "Stand"}})).toBe(false);
     expect(asked).toEqual([]);
     expect(texts()).toEqual(["Ben drives"]);
   });
@@ -97,7 +96,7 @@ describe("Commander", () => {
     store.set({control: mine});
     answer = () => ({error: ErrorCode.TOO_MANY_REQUESTS, message: "Too fast."});
     for (let i = 0; i < 20; i++) {
-      await commander.command(useCases.walkTurn(1, 0, 0));
+      await commander.command({case: "walkTurn", value: {vx: 1}});
       vi.advanceTimersByTime(100);
     }
     expect(texts()).toEqual(["Too fast."]);
@@ -109,23 +108,23 @@ describe("Commander", () => {
   it("requests control again after the gateway has withdrawn it", async () => {
     store.set({control: mine});
     answer = () => ({error: ErrorCode.NO_CONTROL, message: "You do not drive."});
-    await commander.command(useCases.goToPosture("Stand"));
+    await commander.command({case: "goToPosture", value: {posture: "Stand"}});
     answer = ({case: name}) => name === "takeControl" ? {result: {case: "control", value: mine}} : {};
-    expect(await commander.command(useCases.goToPosture("Stand"))).toBe(true);
+    expect(await commander.command({case: "goToPosture", value: {posture: "Stand"}})).toBe(true);
     expect(asked).toEqual(["goToPosture", "takeControl", "goToPosture"]);
   });
 
   it("leaves out what is repeated anyway while the link is behind", () => {
     store.set({control: mine});
     isCongested = true;
-    commander.stream(useCases.walkTurn(1, 0, 0));
+    commander.stream({case: "walkTurn", value: {vx: 1}});
     expect(asked).toEqual([]);
   });
 
   it("never leaves out the end of a walk", async () => {
     store.set({control: mine});
     isCongested = true;
-    commander.stream(useCases.walkTurn(0, 0, 0));
+    commander.stream({case: "walkTurn", value: {}});
     await vi.advanceTimersByTimeAsync(0);
     expect(asked).toEqual(["walkTurn"]);
   });
@@ -159,12 +158,12 @@ describe("Commander", () => {
 
   it("translates the gateway's error codes", async () => {
     store.set({control: mine});
-    setLanguage("de");
+    await setLanguage("de");
     commander.notice(create(NoticeSchema, {kind: Notice_Kind.COMPONENT_CHANGED,
                                           component: Notice_Component.MOTION, message: "away"}));
     for (const error of [ErrorCode.STOPPED, ErrorCode.CONTROL_TAKEN, ErrorCode.ROBOT_UNAVAILABLE]) {
       answer = () => ({error, message: "in English", result: {case: "control", value: bens}});
-      await commander.command(useCases.walkTurn(1, 0, 0));
+      await commander.command({case: "walkTurn", value: {vx: 1}});
       store.set({control: mine});
     }
     setLanguage("en");

@@ -3,10 +3,8 @@ import type {Messages} from "./messages";
 import type {UseCase} from "./protocol/codec";
 import {ErrorCode, Notice_Component, Notice_Kind, Notice_Status} from "./protocol/generated/remote_pb";
 import type {Notice, Response} from "./protocol/generated/remote_pb";
-import * as useCases from "./protocol/use_cases";
 import type {Store} from "./store";
-import {reasonInWords} from "./text/reasons";
-import {say} from "./text/texts";
+import {reasonInWords, say} from "./text/texts";
 
 /** The part of Connection that commands need. */
 export interface Requester {
@@ -60,13 +58,13 @@ export class Commander {
 
   /** Every client may stop the robot, whether it drives or not. */
   async stop(): Promise<boolean> {
-    return this.report(await this.requester.request(useCases.stop()));
+    return this.report(await this.requester.request({case: "stop", value: {}}));
   }
 
   /** Requests control, also while another client has it.
    * @param robot  name of another robot than the one that is watched. */
   async takeControl(robot = ""): Promise<boolean> {
-    const response = await this.requester.request(useCases.takeControl(robot));
+    const response = await this.requester.request({case: "takeControl", value: {robot}});
     // The controls do not show who drives a robot that is not watched.
     if (response && response.error !== ErrorCode.OK && robot && robot !== this.store.get().robot?.name) {
       this.refused(this.inWords(response));
@@ -77,12 +75,12 @@ export class Commander {
 
   /** Watches another robot. */
   async watchRobot(robot: string): Promise<boolean> {
-    return this.report(await this.requester.request(useCases.watchRobot(robot)));
+    return this.report(await this.requester.request({case: "watchRobot", value: {robot}}));
   }
 
   /** Takes control, or tells the driver that this client waits for it. */
   async askForControl(): Promise<boolean> {
-    const response = await this.requester.request(useCases.takeControl("", true));
+    const response = await this.requester.request({case: "takeControl", value: {wait: true}});
     const isWaiting = response?.result.case === "control" && response.result.value.nextId === this.store.get().clientId;
     if (!response || !isWaiting || response.result.case !== "control") return this.report(response);
     this.store.set({control: response.result.value});
@@ -91,13 +89,13 @@ export class Commander {
   }
 
   async releaseControl(): Promise<boolean> {
-    return this.report(await this.requester.request(useCases.releaseControl()));
+    return this.report(await this.requester.request({case: "releaseControl", value: {}}));
   }
 
   /** Control goes to the client that waits for it. */
   async handOver(): Promise<boolean> {
     this.onMotion();
-    return this.report(await this.requester.request(useCases.releaseControl(this.store.get().control?.nextId)));
+    return this.report(await this.requester.request({case: "releaseControl", value: {successorId: this.store.get().control?.nextId}}));
   }
 
   /** Handles an event that does not answer a request. */
@@ -198,5 +196,5 @@ export class Commander {
 function isWalkEnd(useCase: UseCase): boolean {
   if (useCase.case !== "walkTurn") return false;
   const {vx, vy, wz} = useCase.value;
-  return vx === 0 && vy === 0 && wz === 0;
+  return !vx && !vy && !wz;
 }

@@ -4,7 +4,6 @@ import {FakeTransport} from "../test_support/fake_transport";
 import {Connection, kOpenTimeoutMs, kSilenceMs} from "./connection";
 import {ConnectedSchema, ErrorCode, ImageSchema, Mode, Notice_Kind, NoticeSchema, PongSchema, StateSchema} from "./protocol/generated/remote_pb";
 import type {State} from "./protocol/generated/remote_pb";
-import * as useCases from "./protocol/use_cases";
 import {isStale, Store} from "./store";
 
 const kIdentity = {token: "secret", clientName: "Ana", clientSoftware: "test"};
@@ -132,11 +131,11 @@ describe("Connection", () => {
     it("sends copies of short requests, with the same numbers, once it has joined", async () => {
       await welcome();
       second.opened();
-      void connection.request(useCases.stop());
+      void connection.request({case: "stop", value: {}});
       expect(second.sent.map((one) => one.useCase.case)).toEqual(["join"]);
       second.answer("join");
-      void connection.request(useCases.stop());
-      void connection.request(useCases.saveMotion({yaml: "x".repeat(2000)}, false));
+      void connection.request({case: "stop", value: {}});
+      void connection.request({case: "saveMotion", value: {motion: {yaml: "x".repeat(2000)}}});
       expect(second.sent.at(-1)).toEqual(transport.sent.at(-2));
       expect(second.sent).toHaveLength(2);
     });
@@ -321,7 +320,7 @@ describe("Connection", () => {
 
   it("answers open requests with null when the link breaks", async () => {
     await welcome();
-    const answer = connection.request(useCases.stop());
+    const answer = connection.request({case: "stop", value: {}});
     transport.broken(true);
     await expect(answer).resolves.toBeNull();
     expect(store.get().problem).toBe("closed");

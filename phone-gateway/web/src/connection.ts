@@ -1,17 +1,15 @@
 /** Connection to the gateway: opens it, sends Connect and pings, reopens it, and reports problems. */
 import {retryDelayMs} from "./backoff";
 import {ClockRelation} from "./clock_relation";
-import {decodeServerMessage, encodeRequest} from "./protocol/codec";
+import {decodeServerMessage, encodeRequest, kProtocolVersion} from "./protocol/codec";
 import type {UseCase} from "./protocol/codec";
 import {ErrorCode, Notice_Kind} from "./protocol/generated/remote_pb";
 import type {
   Audio, Connected, Control, Notice, Image, PlayState, Response, RobotDescription, State, Vision,
 } from "./protocol/generated/remote_pb";
-import * as useCases from "./protocol/use_cases";
 import {SecondConnection} from "./second_connection";
 import type {Problem, Store} from "./store";
-import {reasonInWords} from "./text/reasons";
-import {setLabels} from "./text/texts";
+import {reasonInWords, setLabels} from "./text/texts";
 import type {Transport} from "./transport";
 
 /** Silence after which the link counts as lost, both here and in the gateway. */
@@ -141,8 +139,8 @@ export class Connection {
     this.lastReceivedMs = this.now();
     const {token, clientName, clientSoftware} = this.identity;
     const robot = this.robotName;
-    const response = await this.request(useCases.connect(token, clientName, clientSoftware, robot,
-                                                          this.second?.key));
+    const response = await this.request({case: "connect", value: {
+      protocolVersion: kProtocolVersion, token, clientName, clientSoftware, robot, joinKey: this.second?.key}});
     if (!response || attempt !== this.attempt) return;
     if (response.error === ErrorCode.OK && response.result.case === "connected") {
       this.welcome(response.result.value);
@@ -218,7 +216,7 @@ export class Connection {
   private ping(): void {
     const sentMs = this.now();
     this.lastPingMs = sentMs;
-    void this.request(useCases.ping(Math.round(sentMs * 1000))).then((response) => {
+    void this.request({case: "ping", value: {clientUtime: BigInt(Math.round(sentMs * 1000))}}).then((response) => {
       if (response?.result.case !== "pong") return;
       this.clocks.add(sentMs, this.now(), response.result.value.sentAt);
       this.latencySamples.push(this.now() - sentMs);

@@ -1,12 +1,14 @@
 /** Makes elements in one expression: el("button", {class: "stop"}, "Stop"). */
 
-type Attributes = Record<string, string | number | boolean | ((event: never) => void) | undefined>;
+export type Attributes = Record<string, string | number | boolean | ((event: never) => void) | undefined>;
+
+export type Child = Node | string | null;
 
 /** @param attributes  true: present; false or undefined: absent; a function under "onclick" and the
  * like: a listener. */
 export function el<K extends keyof HTMLElementTagNameMap>(
     tag: K, attributes: Attributes = {},
-    ...children: (Node | string | null)[]): HTMLElementTagNameMap[K] {
+    ...children: Child[]): HTMLElementTagNameMap[K] {
   const element = document.createElement(tag);
   for (const [name, value] of Object.entries(attributes)) {
     if (typeof value === "function") {
@@ -19,17 +21,19 @@ export function el<K extends keyof HTMLElementTagNameMap>(
   return element;
 }
 
+/** The same for a shape of a drawing. */
+export function shape<K extends keyof SVGElementTagNameMap>(
+    tag: K, attributes: Record<string, string | number>, ...children: Node[]): SVGElementTagNameMap[K] {
+  const element = document.createElementNS("http://www.w3.org/2000/svg", tag);
+  for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, String(value));
+  element.append(...children);
+  return element;
+}
+
 /** A drawing made of one path, decorative: what it means is said in words beside it.
  * @param size  edge of the square that the path is drawn in. */
 export function drawing(path: string, size: number, className: string): SVGSVGElement {
-  const svg = document.createElementNS("http://www.w3.org/2000/svg", "svg");
-  svg.setAttribute("viewBox", `0 0 ${size} ${size}`);
-  svg.setAttribute("aria-hidden", "true");
-  svg.classList.add(className);
-  const shape = document.createElementNS("http://www.w3.org/2000/svg", "path");
-  shape.setAttribute("d", path);
-  svg.append(shape);
-  return svg;
+  return shape("svg", {viewBox: `0 0 ${size} ${size}`, "aria-hidden": "true", class: className}, shape("path", {d: path}));
 }
 
 /** An icon drawn with lines in a 24x24 box. */

@@ -1,17 +1,10 @@
 /** Which of several robots the person drives or watches: the list of robots, and changes to another one. */
 import type {Commander} from "./commander";
 import type {Messages} from "./messages";
+import type {Actions} from "./screens/actions";
 import {LobbyScreen} from "./screens/lobby_screen";
 import type {Store} from "./store";
 import {say} from "./text/texts";
-
-export interface LobbyHost {
-  /** Ends all driving and joints mode. */
-  letGo(): void;
-  /** What is streamed depends on whether the list is seen. */
-  subscribe(): void;
-  leave(): void;
-}
 
 export class Lobby {
   readonly screen: LobbyScreen;
@@ -19,11 +12,11 @@ export class Lobby {
   private chosen = "";
 
   constructor(private readonly store: Store, commander: Commander, private readonly messages: Messages,
-              private readonly host: LobbyHost) {
+              private readonly act: Actions) {
     this.screen = new LobbyScreen(store, {
       drive: (robot) => void this.choose(robot, commander.takeControl(robot)),
       watch: (robot) => void this.choose(robot, commander.watchRobot(robot)),
-      leave: () => host.leave(),
+      leave: () => act.leave(),
     });
     // Also when the operator has assigned a robot to this phone.
     store.watch((state) => state.control?.isMine ?? false, (isMine) => {
@@ -33,16 +26,16 @@ export class Lobby {
 
   /** Shows the robots. The watched one is kept until another one is chosen. */
   open(): void {
-    this.host.letGo();
+    this.act.letGo();
     this.store.set({isChoosingRobot: true});
-    this.host.subscribe();
+    this.act.subscribe();
   }
 
   /** The watched robot is another one, by choice or by the operator: nothing of the one before goes on. */
   robotChanged(): void {
     // Its limp limbs belong to the robot before.
     this.store.set({relaxedGroups: []});
-    this.host.letGo();
+    this.act.letGo();
     const {robot} = this.store.get();
     if (robot && robot.name !== this.chosen) this.messages.show("info", say("lobby.changed", {name: robot.name}));
   }
@@ -55,6 +48,6 @@ export class Lobby {
   private close(): void {
     if (!this.store.get().isChoosingRobot) return;
     this.store.set({isChoosingRobot: false});
-    this.host.subscribe();
+    this.act.subscribe();
   }
 }

@@ -9,12 +9,10 @@ import {el} from "./dom";
 import {CannotDraw} from "./robot/drawing_context";
 import {loadSettings} from "./settings";
 import {storage} from "./storage";
-import {chooseLanguage, say, setLanguage} from "./text/texts";
+import {chooseLanguage, say, setPageLanguage} from "./text/texts";
 
 const settings = loadSettings(storage());
-const language = chooseLanguage([settings.language, ...navigator.languages]);
-setLanguage(language);
-document.documentElement.lang = language;
+await setPageLanguage(chooseLanguage([settings.language, ...navigator.languages]));
 
 const root = document.getElementById("app")!;
 try {

@@ -3,7 +3,6 @@
 import {retryDelayMs} from "./backoff";
 import {decodeServerMessage, encodeRequest} from "./protocol/codec";
 import {ErrorCode} from "./protocol/generated/remote_pb";
-import * as useCases from "./protocol/use_cases";
 import type {Transport} from "./transport";
 
 /** A longer request is sent once; bytes. Chosen: far above a command, below a taught motion. */
@@ -43,7 +42,7 @@ export class SecondConnection {
 
   private start(): void {
     this.transport.open({
-      opened: () => this.transport.send(encodeRequest(kJoinId, useCases.join(this.clientId, this.key))),
+      opened: () => this.transport.send(encodeRequest(kJoinId, {case: "join", value: {clientId: this.clientId, key: this.key}})),
       received: (bytes) => this.arrived(bytes),
       closed: () => this.broken(),
     });

@@ -1,4 +1,5 @@
 /** What the phone remembers, and what the link that opened the page says. */
+import {keep, recall} from "./storage";
 
 const kKey = "nao-remote";
 const kMaxRecent = 4;
@@ -29,23 +30,12 @@ const kDefaults: Settings = {
 
 /** Reads the settings; those that another version wrote badly count as not there. */
 export function loadSettings(storage: Storage | null): Settings {
-  try {
-    const found = JSON.parse(storage?.getItem(kKey) ?? "{}") as Partial<Settings>;
-    return {
-      ...kDefaults, ...found,
-      recent: Array.isArray(found.recent) ? found.recent.filter(isRecent) : [],
-    };
-  } catch {
-    return {...kDefaults};
-  }
+  const found = recall<Settings>(storage, kKey) ?? {};
+  return {...kDefaults, ...found, recent: Array.isArray(found.recent) ? found.recent.filter(isRecent) : []};
 }
 
 export function saveSettings(storage: Storage | null, settings: Settings): void {
-  try {
-    storage?.setItem(kKey, JSON.stringify(settings));
-  } catch {
-    // Private browsing without storage: the app works, it only forgets.
-  }
+  keep(storage, kKey, settings);
 }
 
 /** Puts an address in front of the list of those used. */

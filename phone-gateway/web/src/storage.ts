@@ -6,3 +6,21 @@ export function storage(): Storage | null {
     return null;
   }
 }
+
+/** What was kept under a key; null: nothing, or what another version wrote badly. */
+export function recall<Kept>(memory: Storage | null, key: string): Partial<Kept> | null {
+  try {
+    return JSON.parse(memory?.getItem(key) ?? "null") as Partial<Kept> | null;
+  } catch {
+    return null;
+  }
+}
+
+/** Private browsing may have no memory, or a full one: the app works, it only forgets. */
+export function keep(memory: Storage | null, key: string, value: unknown): void {
+  try {
+    memory?.setItem(key, JSON.stringify(value));
+  } catch {
+    // As said.
+  }
+}

@@ -4,7 +4,7 @@ import type {
 } from "./protocol/generated/remote_pb";
 import type {Postures} from "./robot/posture_file";
 import {kEmptyDraft} from "./teach/motion_draft";
-import type {MotionDraft, Pose} from "./teach/motion_draft";
+import type {Pose} from "./teach/motion_draft";
 
 /** Phase of the connection to the gateway. */
 export type LinkPhase =
@@ -28,14 +28,6 @@ export interface Message {
   text: string;
 }
 
-export interface Loading {
-  /** What is being loaded: files done and in all; 0 in all before the list is known. */
-  done: number;
-  total: number;
-  /** Why loading failed; empty while all is well. */
-  error: string;
-}
-
 /** Why a motion was not played or saved. */
 export interface MotionFault {
   /** Keyframe at which it shows, from 0; -1: none in particular. */
@@ -49,115 +41,76 @@ export interface MotionFault {
   isUpload: boolean;
 }
 
-export interface AppState {
-  phase: LinkPhase;
-  problem: Problem | null;
+/** What is known before anything has come. */
+const kInitialState = {
+  phase: "idle" as LinkPhase,
+  problem: null as Problem | null,
   /** The gateway's own words about the problem; may be empty. */
-  problemDetail: string;
-  /** Time of the next attempt, ms on the clock of performance.now(); 0: none planned. */
-  nextAttemptMs: number;
-  /** Attempts since the last success. */
-  attempts: number;
-  clientId: number;
-  clientName: string;
-  /** The robot that is watched, and who drives it. */
-  robot: RobotDescription | null;
-  control: Control | null;
-  /** Every robot of the gateway; empty where there is only one. */
-  robots: readonly RobotList_Robot[];
-  /** The match that is played; null: none. */
-  match: Match | null;
-  /** The exhibition whose visitors drive in turn; null: none. */
-  exhibition: Exhibition | null;
-  /** True while the person chooses one of them. */
-  isChoosingRobot: boolean;
-  state: State | null;
-  /** Age of that state as the phone sees it, also while nothing comes, ms; negative: there is none. */
-  stateAgeMs: number;
-  image: Image | null;
-  /** Age of that image as the phone sees it, also while nothing comes, ms; negative: there is none. */
-  imageAgeMs: number;
-  loading: Loading;
-  /** Newest last. */
-  messages: readonly Message[];
-  /** Latest result of a command. */
-  lastResult: Notice | null;
-  /** Components that do not answer. */
-  unavailableComponents: readonly Notice_Component[];
-  /** Median round trip of the last pings, ms; negative before the first. */
-  latencyMs: number;
-  numClients: number;
-  /** What is known of the robot's postures, and a drawing of each. */
-  postures: Postures;
-  drawings: ReadonlyMap<string, HTMLCanvasElement>;
-  /** The form for address and code is asked for, over the view of before. */
-  isFormOpen: boolean;
-  /** True in joints mode, false in drive mode. */
-  isJointsMode: boolean;
-  /** Name of the joint group in hand; empty: none. */
-  selectedGroup: string;
-  /** Names of the motions saved on the robot's host. */
-  savedMotions: readonly string[];
-  /** The motion being taught. */
-  draft: MotionDraft;
-  canUndoDraft: boolean;
-  /** True while the robot's host checks a motion. */
-  isCheckingMotion: boolean;
-  motionFault: MotionFault | null;
-  /** Joint groups without stiffness, to be moved by hand. */
-  relaxedGroups: readonly string[];
-  /** What the robot does by itself; null: its host does not run nao-play. */
-  playState: PlayState | null;
-  /** What the robot sees in its newest analysed image; null: none was analysed. */
-  vision: Vision | null;
-}
-
-const kInitialState: AppState = {
-  phase: "idle",
-  problem: null,
   problemDetail: "",
+  /** Time of the next attempt, ms on the clock of performance.now(); 0: none planned. */
   nextAttemptMs: 0,
+  /** Attempts since the last success. */
   attempts: 0,
   clientId: 0,
   clientName: "",
-  robot: null,
-  control: null,
-  robots: [],
-  match: null,
-  exhibition: null,
+  /** The robot that is watched, and who drives it. */
+  robot: null as RobotDescription | null,
+  control: null as Control | null,
+  /** Every robot of the gateway; empty where there is only one. */
+  robots: [] as readonly RobotList_Robot[],
+  /** The match that is played; null: none. */
+  match: null as Match | null,
+  /** The exhibition whose visitors drive in turn; null: none. */
+  exhibition: null as Exhibition | null,
+  /** True while the person chooses one of them. */
   isChoosingRobot: false,
-  state: null,
+  state: null as State | null,
+  /** Age of that state as the phone sees it, also while nothing comes, ms; negative: there is none. */
   stateAgeMs: -1,
-  image: null,
+  image: null as Image | null,
+  /** The same of that image. */
   imageAgeMs: -1,
+  /** What is being loaded: files done and in all; 0 in all before the list is known. Why it failed; empty while all is well. */
   loading: {done: 0, total: 0, error: ""},
-  messages: [],
-  lastResult: null,
-  unavailableComponents: [],
+  /** Newest last. */
+  messages: [] as readonly Message[],
+  /** Latest result of a command. */
+  lastResult: null as Notice | null,
+  /** Components that do not answer. */
+  unavailableComponents: [] as readonly Notice_Component[],
+  /** Median round trip of the last pings, ms; negative before the first. */
   latencyMs: -1,
   numClients: 0,
-  postures: new Map(),
-  drawings: new Map(),
+  /** What is known of the robot's postures, and a drawing of each. */
+  postures: new Map() as Postures,
+  drawings: new Map() as ReadonlyMap<string, HTMLCanvasElement>,
+  /** The form for address and code is asked for, over the view of before. */
   isFormOpen: false,
+  /** True in joints mode, false in drive mode. */
   isJointsMode: false,
+  /** Name of the joint group in hand; empty: none. */
   selectedGroup: "",
-  savedMotions: [],
+  /** Names of the motions saved on the robot's host. */
+  savedMotions: [] as readonly string[],
+  /** The motion being taught. */
   draft: kEmptyDraft,
   canUndoDraft: false,
+  /** True while the robot's host checks a motion. */
   isCheckingMotion: false,
-  motionFault: null,
-  relaxedGroups: [],
-  playState: null,
-  vision: null,
+  motionFault: null as MotionFault | null,
+  /** Joint groups without stiffness, to be moved by hand. */
+  relaxedGroups: [] as readonly string[],
+  /** What the robot does by itself; null: its host does not run nao-play. */
+  playState: null as PlayState | null,
+  /** What the robot sees in its newest analysed image; null: none was analysed. */
+  vision: null as Vision | null,
 };
 
-interface Watcher {
-  check(state: AppState): void;
-}
+export type AppState = typeof kInitialState;
 
 export class Store {
   private current: AppState = {...kInitialState};
-  private readonly watchers = new Set<Watcher>();
+  private readonly watchers = new Set<(state: AppState) => void>();
 
   get(): Readonly<AppState> {
     return this.current;
@@ -166,24 +119,22 @@ export class Store {
   /** Changes some values and notifies the watchers. */
   set(patch: Partial<AppState>): void {
     Object.assign(this.current, patch);
-    for (const watcher of this.watchers) watcher.check(this.current);
+    for (const check of this.watchers) check(this.current);
   }
 
   /** Calls `act` now and whenever the selected value is another one.
    * @return a function that ends the watch. */
   watch<T>(select: (state: Readonly<AppState>) => T, act: (value: T) => void): () => void {
     let last = select(this.current);
-    const watcher: Watcher = {
-      check(state) {
-        const value = select(state);
-        if (Object.is(value, last)) return;
-        last = value;
-        act(value);
-      },
+    const check = (state: AppState): void => {
+      const value = select(state);
+      if (Object.is(value, last)) return;
+      last = value;
+      act(value);
     };
-    this.watchers.add(watcher);
+    this.watchers.add(check);
     act(last);
-    return () => this.watchers.delete(watcher);
+    return () => this.watchers.delete(check);
   }
 }
 

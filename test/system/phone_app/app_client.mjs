@@ -11,12 +11,11 @@ const kEntry = `
 export {Connection} from "./src/connection";
 export {ErrorCode} from "./src/protocol/generated/remote_pb";
 export {Store} from "./src/store";
-export {GatewayTransport} from "./src/transport";
-export * as useCases from "./src/protocol/use_cases";
+export {GatewayTransport} from "./src/relay/gateway_transport";
 `;
 
 /** @param webDir  folder of the app's package.json.
- * @return connectTo(link): {ask(useCase), store, end()} of a client that is connected; useCases and ErrorCode of the app. */
+ * @return connectTo(link): {ask(useCase), store, end()} of a client that is connected; ErrorCode of the app. */
 export async function loadClient(webDir) {
   const require = requireFromApp(webDir);
   // What browsers have, and Node 18 does not.
@@ -32,7 +31,7 @@ export async function loadClient(webDir) {
   const file = join(folder, "client.mjs");
   try {
     await require("esbuild").build({stdin: {contents: kEntry, resolveDir: webDir}, bundle: true, platform: "node", format: "esm", outfile: file});
-    const {Connection, ErrorCode, GatewayTransport, Store, useCases} = await import(pathToFileURL(file));
+    const {Connection, ErrorCode, GatewayTransport, Store} = await import(pathToFileURL(file));
     const connectTo = (link) => new Promise((resolve, reject) => {
       const url = new URL(link);
       const store = new Store();
@@ -46,7 +45,7 @@ export async function loadClient(webDir) {
       });
       connection.connect({token: new URLSearchParams(url.hash.slice(1)).get("token"), clientName: "test", clientSoftware: "test"});
     });
-    return {connectTo, ErrorCode, useCases};
+    return {connectTo, ErrorCode};
   } finally {
     await rm(folder, {recursive: true, force: true});
   }

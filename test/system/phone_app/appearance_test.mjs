@@ -1,5 +1,5 @@
 // Every screen in every state: laid out and accessible. With NAO_PICTURES=FOLDER at five sizes, in light and dark and in
-// three languages, and an image of each is left there: scripts/pictures app.
+// four languages, and an image of each is left there: scripts/pictures app.
 import assert from "node:assert/strict";
 import {mkdtempSync, rmSync} from "node:fs";
 import {tmpdir} from "node:os";
@@ -29,7 +29,11 @@ const kPasses = [
   {name: "1024-dark-de", size: [1024, 768], options: {...kDark, locale: "de-DE"}},
   {name: "desk-light-de", size: [1280, 800], options: {...kLight, ...kDesk, locale: "de-DE"}, isTypical: true},
   {name: "desk-dark-pt", size: [1280, 800], options: {...kDark, ...kDesk, locale: "pt-PT"}},
-  {name: "412-right-to-left", size: [412, 915], options: kLight, isRightToLeft: true, isTypical: true},
+  // From right to left.
+  {name: "412-light-ar", size: [412, 915], options: {...kLight, locale: "ar-EG"}, isTypical: true},
+  {name: "320-dark-ar", size: [320, 568], options: {...kDark, locale: "ar-EG"}},
+  {name: "915-dark-ar", size: [915, 412], options: {...kDark, locale: "ar-EG"}},
+  {name: "desk-light-ar", size: [1280, 800], options: {...kLight, ...kDesk, locale: "ar-EG"}},
   {name: "412-letters-200", size: [412, 915], options: kDark, letters: "200%"},
 ];
 
@@ -53,10 +57,9 @@ after(async () => {
   rmSync(folder, {recursive: true, force: true});
 });
 
-/** As set by a phone that reads from right to left, or shows large letters. */
-function setPage({isRightToLeft, letters}) {
+/** As set by a phone that shows large letters. */
+function setPage({letters}) {
   const set = () => {
-    if (isRightToLeft) document.documentElement.dir = "rtl";
     if (letters) document.documentElement.style.fontSize = letters;
   };
   if (document.documentElement) set();
@@ -111,6 +114,7 @@ for (const {name, size: [width, height], options, ...page} of kPasses.filter((pa
     await click(ana, '[data-name="LyingBack"]');
     await until("it lies", async () => (await ana.look("state.state.posture")) === "LyingBack");
     await look(ana, "lying");
+    assert.equal(await ana.page.locator(".strips .chip:visible").count(), 1, "lying, it can only get up");
     const ben = await open(fake.url, "Ben");
     await ben.sees("controller");
     await click(ben, ".driver-button");

@@ -37,6 +37,7 @@ function look() {
       faults.push(`${name(element)} leaves the screen: ${JSON.stringify(box)}`);
     }
   }
+  if (root.scrollWidth > root.clientWidth + 1) faults.push(`${name(root)} is cut: ${root.scrollWidth} of ${root.clientWidth} px`);
   // The large view is what things lie on.
   const apart = boxes.filter(({element}) => !element.matches(".camera-large .image-main"));
   for (const [i, a] of apart.entries()) {

@@ -82,15 +82,24 @@ test("a killed gateway is told over the last view, with a button, and the app co
 });
 
 test("the app opens without the robot too, says that it is away, and drives as soon as it is back", async () => {
-  await ana.page.evaluate(async () => {
-    await navigator.serviceWorker.ready;
-  });
+  const eva = await openPhone(stack.url, undefined, {locale: "de-DE"});
+  for (const phone of [ana, eva]) {
+    await phone.sees("controller");
+    await until("the copy is kept", () => phone.page.evaluate(async () => {
+      const loaded = performance.getEntriesByType("resource").map(({name}) => name).filter((name) => name.includes("/assets/"));
+      return (await Promise.all(loaded.map((name) => caches.match(name)))).every(Boolean);
+    }));
+    await phone.touch.send("Network.setCacheDisabled", {cacheDisabled: true});
+  }
   await stack.end("nao-phone-gateway", "SIGKILL");
-  await ana.page.reload();
-  await ana.sees("connection");
-  await ana.page.getByText("Nothing answers at this address.").first().waitFor();
+  for (const [phone, words] of [[ana, "Nothing answers at this address."], [eva, "Unter dieser Adresse antwortet nichts."]]) {
+    await phone.page.reload();
+    await phone.sees("connection");
+    await phone.page.getByText(words).first().waitFor();
+  }
   await stack.startGateway();
   await ana.sees("controller");
+  await eva.close();
 });
 
 test("a gateway that hangs is told at once, and given up after 5 s of silence", async () => {

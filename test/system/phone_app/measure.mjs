@@ -1,21 +1,25 @@
 // Times and memory of the app with the real programs: node measure.mjs [--only PART,PART] [--minutes N]. Prints
-// a table; no limits are applied, since machines differ. Parts: link, touch, tasks, stop. NAO_BIN_DIR and NAO_WEB_SOURCE_DIR
+// a table; no limits are applied, since machines differ. Parts: load, link, touch, tasks, stop. NAO_BIN_DIR and NAO_WEB_SOURCE_DIR
 // as for the tests.
+//   first load        bytes over the air, headers among them, until the robot is seen, and the seconds that this takes at 3 Mbit/s
 //   link to robot     from following the QR link, in a browser that was never here, to the first frame drawn
 //   touch to pixel    from the touch event's own time stamp to the end of drawing the first frame in which the
 //                     head has turned by 1 mrad (an encoder's step is 1.5), and the marks on the way
 //   hidden to stop    from hiding the page to the end of the true torso's way ahead, on the world's own clock
-//   long tasks        of the page's main thread while two joysticks walk, above 50 ms
+//   walking           while two joysticks walk: frames a second, processor time of the browser for each, tasks of the page's
+//                     main thread above 50 ms
 //   memory            with --minutes: heap after collecting garbage, and the processes', while the app drives
 import {readFileSync} from "node:fs";
 import {parseArgs} from "node:util";
+import {Air} from "./air.mjs";
 import {openBrowser, Phone} from "./phone.mjs";
 import {pause, Stack, until} from "./stack.mjs";
 
 const {values: options} = parseArgs({options: {
-  minutes: {type: "string", default: "0"}, only: {type: "string", default: "link,touch,tasks,stop"}}});
+  minutes: {type: "string", default: "0"}, only: {type: "string", default: "load,link,touch,tasks,stop"}}});
 const isWanted = (part) => options.only.split(",").includes(part);
 const kNumLinks = 7;
+const kSlowBitsPerSecond = 3e6;
 const kNumThumbs = 24;
 const kNumHidden = 5;
 const kWalkMs = 15_000;
@@ -48,6 +52,28 @@ async function measureLinks() {
     await phone.close();
   }
   row("link to robot", times);
+}
+
+const kKinds = [["code", /\.js$/], ["styles", /\.css$/], ["robot", /^\/robots\//], ["other", /./]];
+
+async function measureLoad() {
+  const times = [];
+  for (let i = 0; i < kNumLinks; i++) {
+    const air = new Air(stack.httpPort, kSlowBitsPerSecond);
+    const port = await air.start();
+    const phone = await Phone.open(browser, stack.url.replace(`:${stack.httpPort}`, `:${port}`));
+    await until("the robot is drawn", () => shownAt(phone));
+    times.push(await shownAt(phone));
+    if (i === 0) {
+      const parts = Object.fromEntries(kKinds.map(([kind]) => [kind, 0]));
+      for (const [path, bytes] of air.bytesOf) parts[kKinds.find(([, pattern]) => pattern.test(path))[0]] += bytes;
+      const words = Object.entries(parts).map(([kind, bytes]) => `${kind} ${(bytes / 1000).toFixed(1)}`).join(", ");
+      console.log(`${"first load".padEnd(40)} ${(air.numBytes / 1000).toFixed(1)} kB in ${air.paths.length} files: ${words}`);
+    }
+    await phone.close();
+    air.stop();
+  }
+  row("first load at 3 Mbit/s", times);
 }
 
 /** In the page: notes the marks of one deflection of the joystick into window.marks. */
@@ -127,12 +153,15 @@ async function measureLongTasks() {
         .observe({type: "longtask"});
     window.numFramesBefore = window.naoRemote.numFrames;
   });
+  const whole = await browser.newBrowserCDPSession();
   await touchJoysticks(phone, [0, 0.7], [-0.4, 0]);
+  const before = await processorTime(whole);
   await pause(kWalkMs);
+  const used = (await processorTime(whole)) - before;
   await phone.fingers("touchEnd", []);
   const {tasks, numFrames} = await phone.page.evaluate(
       () => ({tasks: window.tasks, numFrames: window.naoRemote.numFrames - window.numFramesBefore}));
-  console.log(`${"walking".padEnd(40)} ${(numFrames / kWalkMs * 1000).toFixed(0)} frames a second, ${tasks.length} tasks above 50 ms` +
+  console.log(`${"walking".padEnd(40)} ${(numFrames / kWalkMs * 1000).toFixed(0)} frames a second, ${(used / numFrames).toFixed(1)} ms of a core each, ${tasks.length} tasks above 50 ms` +
               (tasks.length ? `, the longest ${Math.max(...tasks)} ms` : ""));
   await standsReady(phone);
   await phone.close();
@@ -176,6 +205,12 @@ function timeOfRest(truths) {
   });
   const end = seen.at(-1).ahead;
   return (seen.find(({ahead}) => end - ahead < kRest).utime - seen[0].utime) / 1000;
+}
+
+/** Processor time of the browser's processes, ms. */
+async function processorTime(session) {
+  const {processInfo} = await session.send("SystemInfo.getProcessInfo");
+  return 1000 * processInfo.reduce((sum, {cpuTime}) => sum + cpuTime, 0);
 }
 
 /** MB that the browser's processes have in memory. */
@@ -231,6 +266,7 @@ try {
   if (Number(options.minutes) > 0) {
     await measureMemory(Number(options.minutes));
   } else {
+    if (isWanted("load")) await measureLoad();
     if (isWanted("link")) await measureLinks();
     if (isWanted("touch")) await measureTouch();
     if (isWanted("tasks")) await measureLongTasks();

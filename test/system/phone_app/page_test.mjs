@@ -6,7 +6,7 @@ import {setUp} from "./set_up.mjs";
 import {until} from "./stack.mjs";
 
 /** All that a phone fetches on its first visit, as it goes over the air. */
-const kMaxBytes = 400_000;
+const kMaxBytes = 347_000;
 
 const {stack, openPhone} = setUp({scene: "soccer", hasPhone: false});
 
@@ -14,7 +14,7 @@ const {stack, openPhone} = setUp({scene: "soccer", hasPhone: false});
 const robotShown = (phone) => until("the robot is drawn", () => phone.page.evaluate(
     () => performance.getEntriesByName("robot-shown")[0]?.startTime));
 
-test("a first visit fetches less than 400 kB, and nothing twice", async (t) => {
+test("a first visit fetches less than 347 kB, and nothing twice", async (t) => {
   const air = new Air(stack.httpPort);
   const port = await air.start();
   t.after(() => air.stop());

@@ -6,7 +6,7 @@ import {until} from "./stack.mjs";
 
 const kMaxAttempts = 3;
 /** As stage.ts says for a processor that draws. */
-const kFramePeriodMs = 50;
+const kFramePeriodMs = 30;
 
 const {stack, phone} = setUp();
 

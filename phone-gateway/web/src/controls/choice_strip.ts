@@ -1,6 +1,6 @@
 /** A row of buttons for what the robot can do by name; slides sideways when there are many. */
 import {el} from "../dom";
-import {onPress} from "./press";
+import {button} from "./press";
 
 export interface Choice {
   name: string;
@@ -21,9 +21,7 @@ export class ChoiceStrip {
   setChoices(choices: readonly Choice[]): void {
     this.buttons.clear();
     for (const {name, label, kind} of choices) {
-      const button = el("button", {class: "chip", "data-name": name, "data-kind": kind}, el("span", {}, label));
-      onPress(button, () => this.choose(name));
-      this.buttons.set(name, button);
+      this.buttons.set(name, button({class: "chip", "data-name": name, "data-kind": kind}, () => this.choose(name), el("span", {}, label)));
     }
     this.element.replaceChildren(...this.buttons.values());
     this.setDrawings(this.drawings);
@@ -32,29 +30,29 @@ export class ChoiceStrip {
   /** Puts a drawing over each label. @param drawings  by name. */
   setDrawings(drawings: ReadonlyMap<string, HTMLCanvasElement>): void {
     this.drawings = drawings;
-    for (const [name, button] of this.buttons) {
-      button.querySelector("canvas")?.remove();
+    for (const [name, element] of this.buttons) {
+      element.querySelector("canvas")?.remove();
       const drawing = drawings.get(name);
       if (!drawing) continue;
       drawing.setAttribute("aria-hidden", "true");
-      button.prepend(drawing);
+      element.prepend(drawing);
     }
   }
 
   /** Marks the one that holds now; none if the name is empty. */
   mark(current: string): void {
-    for (const [name, button] of this.buttons) {
-      if (name !== current) button.removeAttribute("aria-current");
-      else if (!button.hasAttribute("aria-current")) this.markButton(button);
+    for (const [name, element] of this.buttons) {
+      if (name !== current) element.removeAttribute("aria-current");
+      else if (!element.hasAttribute("aria-current")) this.markButton(element);
     }
   }
 
-  private markButton(button: HTMLButtonElement): void {
-    button.setAttribute("aria-current", "true");
+  private markButton(chosen: HTMLButtonElement): void {
+    chosen.setAttribute("aria-current", "true");
     // Into sight, without moving anything but this row.
     const {element} = this;
     const strip = element.getBoundingClientRect();
-    const box = button.getBoundingClientRect();
+    const box = chosen.getBoundingClientRect();
     if (strip.width > 0) element.scrollBy({left: box.left + box.width / 2 - strip.left - strip.width / 2});
   }
 }

@@ -15,9 +15,6 @@ const kTapTravel = 8;
 /** Not more often than this while dragging, ms. */
 const kLookPeriodMs = 60;
 
-/** As in controller.css. */
-const kDesk = "(min-width: 1000px) and (min-height: 600px) and (hover: hover) and (pointer: fine)";
-
 const kCameraIcon = "M4 8h3l2-2h6l2 2h3v11H4zM12 16.5a3.5 3.5 0 1 0 0-7 3.5 3.5 0 0 0 0 7z";
 
 /** Ages of the image, ms: above the first it is shown on it, above the second the image is grey. Chosen: twice what a person
@@ -75,7 +72,7 @@ export class ImageView {
   }
 
   /** Puts a drawing over the image, and a button on it. */
-  addMarks(marks: HTMLCanvasElement, button: HTMLButtonElement): void {
+  addMarks(marks: Element, button: HTMLButtonElement): void {
     this.canvas.after(marks);
     this.element.append(button);
   }
@@ -83,7 +80,7 @@ export class ImageView {
   /** Sets the cameras of the connected robot; keeps the selected one if the robot has it. */
   setCameras(cameras: readonly string[]): void {
     // At a desk there is room to see as the robot does.
-    if (this.cameras.length === 0 && cameras.length > 0 && !this.isLarge && matchMedia(kDesk).matches) this.swap();
+    if (this.cameras.length === 0 && cameras.length > 0 && !this.isLarge && getComputedStyle(this.element).getPropertyValue("--begins-large")) this.swap();
     this.cameras = cameras;
     if (!cameras.includes(this.camera)) this.camera = cameras[0] ?? "";
     this.relabel();

@@ -2,8 +2,8 @@ import {create} from "@bufbuild/protobuf";
 import {afterEach, beforeEach, describe, expect, it, vi} from "vitest";
 import {readJointGroups} from "../../test_support/nao_files";
 import {JointGroupSchema} from "../protocol/generated/remote_pb";
-import type {JointChange} from "../protocol/use_cases";
 import {changeFromStick, kJointRate} from "./joint_change";
+import type {JointChange} from "./joint_change";
 import {JointDriver, kJointPeriodMs} from "./joint_driver";
 
 const groups = readJointGroups(new URL("../../../../data/robots/nao", import.meta.url).pathname)

@@ -1,7 +1,16 @@
 /** From a joystick position to a change of a joint group; pure. */
 import type {JointGroup} from "../protocol/generated/remote_pb";
-import type {JointChange} from "../protocol/use_cases";
 import type {StickValue} from "./stick";
+
+/** Changes about a group's axes, rad (hands: opening, in `pitch`). */
+export interface JointChange {
+  group: string;
+  yaw: number;
+  pitch: number;
+  roll: number;
+  /** True: the group of the other side makes the mirrored change. */
+  bothSides?: boolean;
+}
 
 /** Speed at the rim of the pad, rad/s: half a turn of the head in two seconds. */
 export const kJointRate = 0.9;

@@ -1,7 +1,7 @@
 /** Turns the selected joint group while the joystick or the slider is held. */
 import type {JointGroup} from "../protocol/generated/remote_pb";
-import type {JointChange} from "../protocol/use_cases";
 import {changeFromStick, isNoChange} from "./joint_change";
+import type {JointChange} from "./joint_change";
 import {Repeater} from "./repeater";
 import type {StickValue} from "./stick";
 

@@ -1,6 +1,6 @@
 /** A value between two buttons, less and more: for values that are changed rarely and exactly. */
-import {el, icon} from "../dom";
-import {onPress} from "./press";
+import {el, icon, setText} from "../dom";
+import {button} from "./press";
 
 const kMinusIcon = "M6 12h12";
 const kPlusIcon = "M12 6v12M6 12h12";
@@ -13,10 +13,8 @@ export class Stepper {
 
   /** @param label  of the value. @param step  called with -1 or 1. */
   constructor(private readonly label: string, step: (direction: number) => void) {
-    this.less = el("button", {class: "round"}, icon(kMinusIcon));
-    this.more = el("button", {class: "round"}, icon(kPlusIcon));
-    onPress(this.less, () => step(-1));
-    onPress(this.more, () => step(1));
+    this.less = button({class: "round"}, () => step(-1), icon(kMinusIcon));
+    this.more = button({class: "round"}, () => step(1), icon(kPlusIcon));
     this.element = el("div", {class: "stepper", role: "group", "aria-label": label}, this.less, this.output, this.more);
   }
 
@@ -25,6 +23,6 @@ export class Stepper {
     this.element.setAttribute("aria-label", label);
     this.less.setAttribute("aria-label", less);
     this.more.setAttribute("aria-label", more);
-    if (this.output.textContent !== text) this.output.textContent = text;
+    setText(this.output, text);
   }
 }

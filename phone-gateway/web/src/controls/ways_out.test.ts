@@ -6,7 +6,6 @@ import {listenToLeaving} from "../leaving";
 import {Messages} from "../messages";
 import type {UseCase} from "../protocol/codec";
 import {ControlSchema, ResponseSchema} from "../protocol/generated/remote_pb";
-import * as useCases from "../protocol/use_cases";
 import {Store} from "../store";
 import {say} from "../text/texts";
 import {HeldControls} from "./held_controls";
@@ -110,8 +109,8 @@ describe("ways out of a walk", () => {
       store.set({phase: "waiting"});
       store.set({phase: "connected"});
     },
-    "a posture is tapped": () => void commander.command(useCases.goToPosture("Stand")),
-    "a kick is tapped": () => void commander.command(useCases.doAction("kick-left")),
+    "a posture is tapped": () => void commander.command({case: "goToPosture", value: {posture: "Stand"}}),
+    "a kick is tapped": () => void commander.command({case: "doAction", value: {action: "kick-left"}}),
   };
 
   describe.each(Object.entries(sources))("from %s", (name, {begin, hold, release}) => {
@@ -174,7 +173,7 @@ describe("ways out of a walk", () => {
 
     it("gives way to a button, which is sent after the end of the walk, and says so", () => {
       const numSent = sent.length;
-      void commander.command(useCases.doAction("kick-left"));
+      void commander.command({case: "doAction", value: {action: "kick-left"}});
       expect(sent.length).toBeGreaterThan(numSent);
       expect(sent.at(-1)).toEqual(zero);
       expect(store.get().messages.map(({text}) => text)).toEqual([say("drive.released")]);
@@ -183,7 +182,7 @@ describe("ways out of a walk", () => {
   });
 
   it("says nothing of a stick when a button is tapped alone", () => {
-    void commander.command(useCases.goToPosture("Stand"));
+    void commander.command({case: "goToPosture", value: {posture: "Stand"}});
     expect(store.get().messages).toEqual([]);
   });
 

@@ -1,7 +1,6 @@
 /** The robot in 3D and the image of its head camera, for pages on which nobody drives. */
 import {el} from "../dom";
 import {Connection} from "../connection";
-import * as useCases from "../protocol/use_cases";
 import {loadFieldLines} from "../robot/load_field";
 import {RobotView} from "../robot/robot_view";
 import {kJointsView, Stage} from "../robot/stage";
@@ -43,7 +42,8 @@ export class LiveView {
 
   private async connected(): Promise<void> {
     const camera = this.store.get().robot?.cameras[0] ?? "";
-    void this.connection.request(useCases.subscribe(kStateRateHz, kImageRateHz, {camera, width: kImageWidth}));
+    void this.connection.request({case: "subscribe", value: {
+      stateRate: kStateRateHz, imageRate: kImageRateHz, image: {camera, width: kImageWidth}}});
     this.stage.start();
     await this.view.showConnected();
   }

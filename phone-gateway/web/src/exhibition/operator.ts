@@ -7,10 +7,9 @@ import {Connection} from "../connection";
 import {el, setText} from "../dom";
 import {ErrorCode, RunExhibitionSchema} from "../protocol/generated/remote_pb";
 import type {Exhibition} from "../protocol/generated/remote_pb";
-import * as useCases from "../protocol/use_cases";
 import {Store} from "../store";
-import {reasonInWords} from "../text/reasons";
-import {GatewayTransport, isInvitation} from "../transport";
+import {reasonInWords} from "../text/texts";
+import {GatewayTransport, isInvitation} from "../relay/gateway_transport";
 import {tell} from "./exhibition_texts";
 import type {ExhibitionKey} from "./exhibition_texts";
 import {fromAddress, pairingToken, takeLanguage} from "./page";
@@ -62,7 +61,7 @@ class OperatorPage {
   private fill(): void {
     this.marks = [];
     this.body.replaceChildren(
-      el("button", {class: "stop", onclick: () => void this.connection.request(useCases.stop())}, tell("stop")),
+      el("button", {class: "stop", onclick: () => void this.connection.request({case: "stop", value: {}})}, tell("stop")),
       this.toggle(({isPaused}) => isPaused, (isPaused) => ({isPaused}), (isOn) => tell(isOn ? "resume" : "pause")),
       this.button("skip", {skips: true}),
       this.button("moreTime", {moreTime: kMoreTime}),
@@ -111,7 +110,11 @@ class OperatorPage {
 
   private show(exhibition: Exhibition | null): void {
     if (!exhibition) return;
-    if (takeLanguage(exhibition.language)) this.fill();
+    void takeLanguage(exhibition.language).then((isNew) => {
+      if (!isNew) return;
+      this.fill();
+      this.show(exhibition);
+    });
     setText(this.driver, driverInWords(exhibition));
     setText(this.time, exhibition.driver ? clock(exhibition.turnLeft) : "");
     this.time.classList.toggle("warned", exhibition.isWarned);
@@ -122,5 +125,5 @@ class OperatorPage {
   }
 }
 
-takeLanguage("en");
+await takeLanguage("");
 new OperatorPage(document.getElementById("app")!, new Store());

@@ -1,7 +1,8 @@
 /** What the big display and the operator's page have in common: their address and their language. */
 import {loadSettings, tokenFromUrl} from "../settings";
 import {storage} from "../storage";
-import {chooseLanguage, setLanguage} from "../text/texts";
+import {chooseLanguage, getLanguage, setPageLanguage} from "../text/texts";
+import {setWords} from "./exhibition_texts";
 
 /** A value behind the '#' of the address, kept for the next visit: it is the gateway's own page. */
 export function fromAddress(name: string): string {
@@ -18,10 +19,9 @@ export function pairingToken(): string {
 }
 
 /** @param tag  of the exhibition's settings. @return whether it is another one than before. */
-export function takeLanguage(tag: string): boolean {
+export async function takeLanguage(tag: string): Promise<boolean> {
   const language = chooseLanguage([new URLSearchParams(location.hash.slice(1)).get("lang") ?? "", tag]);
-  const isNew = document.documentElement.lang !== language;
-  document.documentElement.lang = language;
-  setLanguage(language);
-  return isNew;
+  const isNew = getLanguage() !== language;
+  if (isNew) await Promise.all([setPageLanguage(language), setWords(language)]);
+  return isNew && getLanguage() === language;
 }

@@ -36,7 +36,9 @@ class Screen {
   }
 
   private show(exhibition: Exhibition | null): void {
-    takeLanguage(exhibition?.language ?? "en");
+    void takeLanguage(exhibition?.language ?? "").then((isNew) => {
+      if (isNew) this.show(exhibition);
+    });
     setText(this.scan, tell("scan"));
     if (!exhibition) return;
     const {driver, waiting, numWaiting, bestTime, bestNickname} = exhibition;
@@ -53,7 +55,7 @@ class Screen {
   }
 }
 
-takeLanguage("en");
+await takeLanguage("");
 const store = new Store();
 const live = new LiveView(store);
 new Screen(document.getElementById("app")!, store, live);

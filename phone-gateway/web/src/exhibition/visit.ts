@@ -5,8 +5,10 @@ import type {Commander} from "../commander";
 import {el, setText} from "../dom";
 import {AttendSchema, ErrorCode, Exhibition_Phase as Phase} from "../protocol/generated/remote_pb";
 import type {Exhibition} from "../protocol/generated/remote_pb";
+import {keep, recall} from "../storage";
 import type {Store} from "../store";
-import {tell} from "./exhibition_texts";
+import {getLanguage} from "../text/texts";
+import {setWords, tell} from "./exhibition_texts";
 import {challengeInWords, challengeTime, clock, driverInWords, waitInWords} from "./words";
 import css from "./visit.css?inline";
 
@@ -17,14 +19,10 @@ const kWarnPattern = [100, 60, 100];
 
 /** Random text by which the gateway knows this phone again; in a browser without memory it is new at each visit. */
 function visitorKey(memory: Storage | null): string {
-  const known = memory?.getItem(kKey);
-  if (known) return known;
+  const known = recall<string>(memory, kKey);
+  if (typeof known === "string") return known;
   const key = Array.from(crypto.getRandomValues(new Uint8Array(16)), (byte) => byte.toString(16).padStart(2, "0")).join("");
-  try {
-    memory?.setItem(kKey, key);
-  } catch {
-    // A second scan is another visitor then.
-  }
+  keep(memory, kKey, key);
   return key;
 }
 
@@ -48,6 +46,11 @@ export class Visit {
   private isKnown = false;
 
   /** @param notes  where messages to the driver are. @param letGo  releases what is held. */
+  static async begin(...parts: ConstructorParameters<typeof Visit>): Promise<void> {
+    await setWords(getLanguage());
+    new Visit(...parts);
+  }
+
   constructor(private readonly store: Store, private readonly commander: Commander, private readonly root: HTMLElement, notes: HTMLElement,
               memory: Storage | null, private readonly letGo: () => void) {
     const sheet = new CSSStyleSheet();

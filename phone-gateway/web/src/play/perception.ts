@@ -23,7 +23,7 @@ export class Perception {
     this.objects = new SeenObjects(stage);
     this.marks = new ImageMarks(hasBoxes, keepBoxes);
     this.choice = new BallChoice((behavior: Play_Behavior) => play.begin(behavior));
-    image.addMarks(this.marks.canvas, this.marks.button);
+    image.addMarks(this.marks.element, this.marks.button);
     image.onTap = ({x, y, pageX, pageY}) => this.canPlay && isBallInImage(this.store.get().vision, x, y) &&
         this.offer(pageX, pageY + 60);
     store.watch((state) => state.vision, (vision) => {

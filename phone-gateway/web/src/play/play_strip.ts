@@ -3,7 +3,6 @@ import type {Commander} from "../commander";
 import {ChoiceStrip} from "../controls/choice_strip";
 import {Notice_Kind, Notice_Status, Play_Behavior} from "../protocol/generated/remote_pb";
 import type {Notice} from "../protocol/generated/remote_pb";
-import * as useCases from "../protocol/use_cases";
 import type {Messages} from "../messages";
 import type {Store} from "../store";
 import {say} from "../text/texts";
@@ -32,7 +31,7 @@ export class PlayStrip {
   /** @param target  where the ball shall go, m, in the odometry frame; none: the opponent's goal. */
   begin(behavior: Play_Behavior, target?: {x: number; y: number}): void {
     this.begun = behavior;
-    void this.commander.command(useCases.play(behavior, target));
+    void this.commander.command({case: "play", value: {behavior, targetX: target?.x, targetY: target?.y}});
   }
 
   /** The page is hidden or left: nothing moves without its driver. */

@@ -9,16 +9,16 @@ const state = create(PlayStateSchema, {behavior: Play_Behavior.SCORE, phase: Pla
 afterEach(() => setLanguage("en"));
 
 describe("playInWords", () => {
-  it("says behaviour and phase", () => {
+  it("says behaviour and phase", async () => {
     expect(playInWords(state)).toBe("Score: walks to the ball");
-    setLanguage("de");
+    await setLanguage("de");
     expect(playInWords(state)).toBe("Tor schießen: geht zum Ball");
   });
-  it("says why the robot waits", () => {
+  it("says why the robot waits", async () => {
     const waits = create(PlayStateSchema, {behavior: Play_Behavior.SCORE, phase: PlayState_Phase.SEARCH,
                                            reasonCode: "vision-unavailable", reason: "No images are analysed."});
     expect(playInWords(waits)).toBe("Score: looks for the ball. No images are analysed.");
-    setLanguage("pt");
+    await setLanguage("pt");
     expect(playInWords(waits)).toContain("imagens");
   });
   it("says what the robot does in a match that it plays by itself", () => {

@@ -1,8 +1,7 @@
 /** What the robot does by itself, in the page's language; pure. */
 import {Play_Behavior, PlayState_Phase} from "../protocol/generated/remote_pb";
 import type {PlayState} from "../protocol/generated/remote_pb";
-import {reasonInWords} from "../text/reasons";
-import {say} from "../text/texts";
+import {reasonInWords, say} from "../text/texts";
 
 /** The last parts of the text keys "play.NAME". */
 export const kBehaviorNames = {

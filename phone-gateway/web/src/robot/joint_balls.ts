@@ -88,19 +88,10 @@ export class JointBalls {
   /** The group whose ball is nearest to a tap; empty if none is within reach.
    * @param x,y  px from the canvas's top left; the canvas is `width` by `height`. */
   pick(x: number, y: number, camera: Camera, width: number, height: number): string {
-    let nearest = "";
-    let least = kReach;
-    for (const {group, mesh} of this.balls) {
-      mesh.getWorldPosition(this.place).project(camera);
-      const dx = (this.place.x + 1) / 2 * width - x;
-      const dy = (1 - this.place.y) / 2 * height - y;
-      const distance = Math.hypot(dx, dy);
-      if (distance < least) {
-        least = distance;
-        nearest = group.name;
-      }
-    }
-    return nearest;
+    const distances = Object.entries(this.places(camera, width, height))
+        .map(([group, place]) => ({group, distance: Math.hypot(place[0] - x, place[1] - y)}))
+        .filter(({distance}) => distance < kReach).sort((a, b) => a.distance - b.distance);
+    return distances[0]?.group ?? "";
   }
 
   /** The link that a group's ball is fixed to; null if there is no such ball. */
@@ -108,7 +99,7 @@ export class JointBalls {
     return this.balls.find((ball) => ball.group.name === name)?.mesh.parent ?? null;
   }
 
-  /** Where each ball is on the canvas, px; for tests and automation. */
+  /** Where each ball is on the canvas, px. */
   places(camera: Camera, width: number, height: number): Record<string, [number, number]> {
     return Object.fromEntries(this.balls.map(({group, mesh}) => {
       mesh.getWorldPosition(this.place).project(camera);

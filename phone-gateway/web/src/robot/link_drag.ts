@@ -2,7 +2,6 @@
  * through the link that faces the eye. */
 import {Plane, Raycaster, Vector2, Vector3} from "three";
 import type {Camera, Object3D} from "three";
-import type {Point} from "../protocol/use_cases";
 
 export class LinkDrag {
   private readonly plane: Plane;
@@ -20,10 +19,9 @@ export class LinkDrag {
   }
 
   /** Where the link shall go for a finger at x, y: m in the torso's frame; null if the finger points away. */
-  targetAt(x: number, y: number): Point | null {
+  targetAt(x: number, y: number): Vector3 | null {
     if (!this.meet(x, y)) return null;
-    const target = this.torso.worldToLocal(this.hit.clone().add(this.offset));
-    return [target.x, target.y, target.z];
+    return this.torso.worldToLocal(this.hit.clone().add(this.offset));
   }
 
   private meet(x: number, y: number): boolean {

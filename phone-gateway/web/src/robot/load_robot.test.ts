@@ -35,6 +35,18 @@ it.each([
   expect(tree.link("a").children.some((child) => child.type === "Mesh")).toBe(true);
 });
 
+it("fetches a mesh and its mirror image once", async () => {
+  const paths: string[] = [];
+  files["/r.urdf"] = async () => new Response(kUrdf.replace('"bad.glb"', '"good.glb" scale="1 -1 1"'));
+  files["/good.glb"] = async () => {
+    paths.push("good");
+    return new Response(kGood);
+  };
+  const tree = await loadRobot(kUrl, new RobotSurface(true), () => {}, () => {});
+  expect(paths).toEqual(["good"]);
+  expect(["a", "b"].map((link) => tree.link(link).children.find((child) => child.type === "Mesh")!.scale.y)).toEqual([1, -1]);
+});
+
 it("keeps the error while files that are on their way arrive after it", async () => {
   vi.stubGlobal("location", {href: kUrl.href});
   let arrive: (response: Response) => void = () => {};

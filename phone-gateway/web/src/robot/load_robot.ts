@@ -1,5 +1,5 @@
 /** Fetches the robot's description and meshes, and reports how far it is. */
-import type {Mesh, Object3D} from "three";
+import type {Mesh} from "three";
 import {GLTFLoader} from "three/examples/jsm/loaders/GLTFLoader.js";
 import type {RobotSurface} from "./robot_surface";
 import {quaternionFromRpy, RobotTree} from "./robot_tree";
@@ -16,18 +16,18 @@ export async function loadRobot(urdfUrl: URL, surface: RobotSurface, progress: (
   const text = await (await fetchFile(urdfUrl)).text();
   const tree = new RobotTree(parseUrdf(new DOMParser().parseFromString(text, "application/xml")));
   const loader = new GLTFLoader();
-  let done = 1;
   const visuals = tree.urdf.links.flatMap((link) => link.visuals.map((visual) => ({link, visual})));
-  progress(done, visuals.length + 1);
-  await Promise.all(visuals.map(async ({link, visual}) => {
-    const mesh = await loadMesh(loader, meshUrl(urdfUrl, visual.mesh), surface);
-    if (mesh) {
-      place(mesh, visual);
-      tree.link(link.name).add(mesh);
-    } else {
-      warn(visual.mesh);
+  // A mesh and its mirror image are one file.
+  const files = [...new Set(visuals.map(({visual}) => visual.mesh))];
+  let done = 1;
+  progress(done, files.length + 1);
+  await Promise.all(files.map(async (file) => {
+    const mesh = await loadMesh(loader, meshUrl(urdfUrl, file), surface);
+    if (!mesh) warn(file);
+    for (const {link, visual} of mesh ? visuals.filter((one) => one.visual.mesh === file) : []) {
+      tree.link(link.name).add(place(mesh!.clone(), visual));
     }
-    progress(++done, visuals.length + 1);
+    progress(++done, files.length + 1);
   }));
   return tree;
 }
@@ -43,9 +43,11 @@ async function loadMesh(loader: GLTFLoader, url: URL, surface: RobotSurface): Pr
   }
 }
 
-function place(mesh: Object3D, visual: UrdfVisual): void {
+function place(mesh: Mesh, visual: UrdfVisual): Mesh {
   mesh.position.set(...visual.xyz);
   mesh.quaternion.copy(quaternionFromRpy(visual.rpy));
+  mesh.scale.set(...visual.scale);
+  return mesh;
 }
 
 /** A mesh's URL: "package://nao/meshes/Head.glb" and "meshes/Head.glb" both lie beside the URDF. */

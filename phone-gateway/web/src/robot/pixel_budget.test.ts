@@ -10,15 +10,15 @@ describe("PixelBudget", () => {
   it("leaves a fast phone alone", () => {
     const budget = new PixelBudget(2, true, 0.75);
     run(budget, 1 / 60, 60);
-    expect(budget).toMatchObject({pixelRatio: 2, hasShadow: true});
+    expect(budget).toMatchObject({pixelRatio: 2, hasShadow: true, isExhausted: false});
   });
-  it("draws fewer pixels on a slow phone, then no shadow, within seconds", () => {
+  it("draws fewer pixels on a slow phone, then no shadow, within seconds; then it is exhausted", () => {
     const budget = new PixelBudget(2, true, 0.75);
     run(budget, 0.05, 3);
     expect(budget.pixelRatio).toBeLessThan(2);
     expect(budget.hasShadow).toBe(true);
     run(budget, 0.05, 8);
-    expect(budget).toMatchObject({pixelRatio: 0.75, hasShadow: false});
+    expect(budget).toMatchObject({pixelRatio: 0.75, hasShadow: false, isExhausted: true});
   });
   it("forgives single slow frames", () => {
     const budget = new PixelBudget(2, true, 0.75);

@@ -1,4 +1,4 @@
-/** Keeps a slow phone fluent: when frames take too long it draws fewer pixels, then no shadow. It never
+/** Keeps a slow phone fluent: when frames take too long it draws fewer pixels, then no shadow, then it is exhausted. It never
  * goes back up by itself, so that the image does not pump. Pure. */
 
 /** A frame longer than this is slow, s: below 40 frames a second. */
@@ -16,6 +16,8 @@ export class PixelBudget {
   private numFrames = -kWarmUpFrames;
   private numSlow = 0;
   private time = 0;
+  /** There is nothing left to draw less of. */
+  isExhausted = false;
 
   /** @param pixelRatio  device pixels per CSS pixel at full quality. @param minPixelRatio  at the least. */
   constructor(public pixelRatio: number, public hasShadow: boolean, private readonly minPixelRatio: number) {}
@@ -39,7 +41,8 @@ export class PixelBudget {
       this.pixelRatio = Math.max(this.minPixelRatio, this.pixelRatio * kStepDown);
       return true;
     }
-    const changed = this.hasShadow;
+    const changed = !this.isExhausted;
+    this.isExhausted = !this.hasShadow;
     this.hasShadow = false;
     return changed;
   }

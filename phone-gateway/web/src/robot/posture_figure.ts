@@ -63,8 +63,9 @@ export class PostureFigure {
     this.tree.torso.position.z = -new Box3().setFromObject(this.tree.torso).min.y;
   }
 
-  /** A drawing of each posture, one after the other: a processor that draws must answer the robot meanwhile. */
-  async draw(renderer: WebGLRenderer, postures: Postures): Promise<Map<string, HTMLCanvasElement>> {
+  /** A drawing of each posture, one after the other: a processor that draws must answer the robot meanwhile.
+   * @param isLinear  the surface leaves it to the screen to encode its colors. */
+  async draw(renderer: WebGLRenderer, postures: Postures, isLinear: boolean): Promise<Map<string, HTMLCanvasElement>> {
     const scene = new Scene();
     const sun = new DirectionalLight(0xffffff, 2);
     sun.position.set(1, 3, 2);
@@ -82,7 +83,7 @@ export class PostureFigure {
       const pixels = new Uint8Array(4 * kPictureSize * kPictureSize);
       renderer.readRenderTargetPixels(target, 0, 0, kPictureSize, kPictureSize, pixels);
       renderer.setRenderTarget(null);
-      drawings.set(name, canvasOf(pixels));
+      drawings.set(name, canvasOf(pixels, isLinear));
     }
     target.dispose();
     return drawings;
@@ -101,8 +102,8 @@ function cameraFor(object: Object3D): OrthographicCamera {
   return camera;
 }
 
-/** Pixels of a render target: linear, premultiplied, the lowest row first. */
-function canvasOf(pixels: Uint8Array): HTMLCanvasElement {
+/** Pixels of a render target: premultiplied, the lowest row first. */
+function canvasOf(pixels: Uint8Array, isLinear: boolean): HTMLCanvasElement {
   const canvas = document.createElement("canvas");
   canvas.width = canvas.height = kPictureSize;
   const image = new ImageData(kPictureSize, kPictureSize);
@@ -113,7 +114,7 @@ function canvasOf(pixels: Uint8Array): HTMLCanvasElement {
     const alpha = pixels[from + 3]!;
     if (alpha === 0) continue;
     color.setRGB(pixels[from]! / alpha, pixels[from + 1]! / alpha, pixels[from + 2]! / alpha, LinearSRGBColorSpace);
-    const {r, g, b} = color.convertLinearToSRGB();
+    const {r, g, b} = isLinear ? color.convertLinearToSRGB() : color;
     image.data.set([255 * r, 255 * g, 255 * b, alpha], to);
   }
   canvas.getContext("2d")?.putImageData(image, 0, 0);

@@ -1,5 +1,6 @@
-import {BoxGeometry, Color, Group, Mesh, MeshLambertMaterial, MeshStandardMaterial} from "three";
+import {BoxGeometry, Color, Group, Mesh, MeshStandardMaterial} from "three";
 import {describe, expect, it} from "vitest";
+import {PlainMaterial} from "./plain_material";
 import {RobotSurface} from "./robot_surface";
 
 /** A scene as a mesh file gives it: a red box, and a lamp 1 m above it. */
@@ -30,7 +31,7 @@ describe("RobotSurface", () => {
     const surface = new RobotSurface(true);
     const [a, b] = [surface.meshOf(makeScene())!, surface.meshOf(makeScene())!];
     expect(a.material).toBe(b.material);
-    expect(a.material).toBeInstanceOf(MeshLambertMaterial);
+    expect(a.material).toBeInstanceOf(PlainMaterial);
   });
 
   it("lets one see through the robot, which throws no shadow then, and back", () => {

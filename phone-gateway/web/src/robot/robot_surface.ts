@@ -1,21 +1,22 @@
 /** The robot's surface: one mesh per link, with the colour of each part in its corners, and one material
  * for all links. Sixty meshes with a material each cost a phone more than their triangles do. */
 import {
-  BufferAttribute, Color, Mesh, MeshLambertMaterial, MeshStandardMaterial,
+  BufferAttribute, Color, Mesh, MeshStandardMaterial,
 } from "three";
 import type {BufferGeometry, Object3D} from "three";
 import {mergeGeometries} from "three/examples/jsm/utils/BufferGeometryUtils.js";
+import {PlainMaterial} from "./plain_material";
 
 const kGhostOpacity = 0.42;
 /** Satin plastic. */
 const kRoughness = 0.45;
 
 export class RobotSurface {
-  private readonly material: MeshStandardMaterial | MeshLambertMaterial;
+  private readonly material: MeshStandardMaterial | PlainMaterial;
 
-  /** @param isPlain  true where pixels are dear: without highlights. */
-  constructor(isPlain: boolean) {
-    this.material = isPlain ? new MeshLambertMaterial({vertexColors: true})
+  /** @param isPlain  true where a processor draws: without highlights. */
+  constructor(readonly isPlain: boolean) {
+    this.material = isPlain ? new PlainMaterial()
         : new MeshStandardMaterial({vertexColors: true, roughness: kRoughness, metalness: 0});
   }
 
@@ -38,6 +39,7 @@ export class RobotSurface {
   setGhost(isGhost: boolean, robot: Object3D): void {
     this.material.transparent = isGhost;
     this.material.opacity = isGhost ? kGhostOpacity : 1;
+    if (this.material instanceof PlainMaterial) this.material.setOpacity(this.material.opacity);
     this.material.needsUpdate = true;
     robot.traverse((object) => {
       const mesh = object as Mesh;

@@ -27,10 +27,13 @@ const kFieldOfViewDeg = 32;
 /** Device pixels per CSS pixel at the least. Below the first, pixels are seen as squares; a processor that draws
  * has rather squares than a robot that comes late. */
 const kMinPixelRatio = 0.75;
-const kSoftwarePixelRatio = 0.5;
-/** Time between two frames at the least where a processor draws, ms. At 60 frames a second a page took 1.5 cores, perhaps of
- * those that simulate the robot. */
-const kSoftwareFramePeriodMs = 50;
+const kSoftwarePixelRatio = 0.75;
+const kMinSoftwarePixelRatio = 0.5;
+/** Time between two frames at the least where a processor draws, ms: two of the screen's, 30 a second. More would take what
+ * simulates the robot, perhaps on the same processor. */
+const kSoftwareFramePeriodMs = 30;
+/** The same where that is too much. */
+const kSlowFramePeriodMs = 50;
 /** Where a processor draws, what stands still for so long, ms, is drawn once more with so many pixels: smooth edges. */
 const kRestMs = 500;
 const kRestPixelRatio = 1.5;
@@ -78,8 +81,8 @@ export class Stage {
   private readonly sun = new DirectionalLight(0xfff2e0, 2.6);
   private readonly budget: PixelBudget;
   private readonly framePeriodMs: number;
-  private robot: RobotTree | null = null;
-  /** Height of the robot that is drawn, m; only read by others. */
+  /** The robot that is shown; null before the first. Only read by others, as its height, m. */
+  robot: RobotTree | null = null;
   robotHeight = kUnknownHeight;
   private lastFrameMs = 0;
   private isRunning = false;
@@ -100,7 +103,7 @@ export class Stage {
     this.renderer = new WebGLRenderer({canvas, context: gl, alpha: true});
     this.surface = new RobotSurface(isSoftware);
     this.framePeriodMs = isSoftware ? kSoftwareFramePeriodMs : 0;
-    this.budget = isSoftware ? new PixelBudget(kSoftwarePixelRatio, false, kSoftwarePixelRatio)
+    this.budget = isSoftware ? new PixelBudget(kSoftwarePixelRatio, false, kMinSoftwarePixelRatio)
         : new PixelBudget(Math.min(window.devicePixelRatio, 2), true, kMinPixelRatio);
     this.renderer.toneMapping = ACESFilmicToneMapping;
     this.renderer.shadowMap.enabled = true;
@@ -110,11 +113,6 @@ export class Stage {
     this.scene.add(this.robotAxes, this.floor.object);
     new ResizeObserver(() => this.resize()).observe(canvas);
     this.resize();
-  }
-
-  /** The robot that is shown; null before the first. */
-  get robotTree(): RobotTree | null {
-    return this.robot;
   }
 
   setRobot(robot: RobotTree): void {
@@ -168,7 +166,8 @@ export class Stage {
     if (this.isChanging && this.budget.frame(dt)) this.resize();
     this.isOutdated ||= hasMoved || this.hasEyeMoved();
     this.isChanging = this.isOutdated;
-    if (this.isOutdated && nowMs - this.drawnMs >= this.framePeriodMs) this.draw(nowMs);
+    const period = this.framePeriodMs > 0 && this.budget.isExhausted ? kSlowFramePeriodMs : this.framePeriodMs;
+    if (this.isOutdated && nowMs - this.drawnMs >= period) this.draw(nowMs);
     else if (this.framePeriodMs > 0 && !this.isSharp && nowMs - this.drawnMs > kRestMs) this.draw(nowMs, true);
   }
 
@@ -244,7 +243,7 @@ export class Stage {
 
   /** A drawing of each posture. */
   drawPostures(figure: PostureFigure, postures: Postures): Promise<Map<string, HTMLCanvasElement>> {
-    return figure.draw(this.renderer, postures);
+    return figure.draw(this.renderer, postures, !this.surface.isPlain);
   }
 
   /** Joint group that moves the part of the robot under a point, px from the top left; empty if there is none. */

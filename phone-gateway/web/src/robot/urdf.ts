@@ -4,6 +4,8 @@
 export interface UrdfVisual {
   /** As written in the file, relative to it. */
   mesh: string;
+  /** Factors of the mesh's own axes. */
+  scale: Triple;
   /** Shape frame in the link frame: m, and roll, pitch, yaw in rad. */
   xyz: Triple;
   rpy: Triple;
@@ -65,7 +67,7 @@ function parseLink(element: Element): UrdfLink {
   for (const visual of children(element, "visual")) {
     const geometry = children(visual, "geometry")[0];
     const mesh = geometry && children(geometry, "mesh")[0];
-    if (mesh) visuals.push({mesh: required(mesh, "filename"), ...parseOrigin(visual)});
+    if (mesh) visuals.push({mesh: required(mesh, "filename"), scale: triple(mesh.getAttribute("scale"), [1, 1, 1]), ...parseOrigin(visual)});
   }
   return {name: required(element, "name"), visuals};
 }
@@ -102,25 +104,17 @@ function parseOrigin(element: Element): {xyz: Triple; rpy: Triple} {
 
 function sortByDepth(root: string, joints: UrdfJoint[]): UrdfJoint[] {
   const sorted: UrdfJoint[] = [];
-  const reached = [root];
-  for (let link = reached.shift(); link !== undefined; link = reached.shift()) {
-    for (const joint of joints) {
-      if (joint.parent !== link) continue;
-      sorted.push(joint);
-      reached.push(joint.child);
-    }
-    if (sorted.length > joints.length) throw new Error("the robot's joints form a loop");
+  for (let parents = [root]; parents.length > 0 && sorted.length <= joints.length;) {
+    const next = joints.filter(({parent}) => parents.includes(parent));
+    sorted.push(...next);
+    parents = next.map(({child}) => child);
   }
   if (sorted.length !== joints.length) throw new Error("the robot's joints form a loop");
   return sorted;
 }
 
 function children(element: Element, tag: string): Element[] {
-  const found: Element[] = [];
-  for (let node = element.firstChild; node; node = node.nextSibling) {
-    if (node.nodeType === 1 && (node as Element).tagName === tag) found.push(node as Element);
-  }
-  return found;
+  return Array.from(element.childNodes).filter((node): node is Element => node.nodeName === tag);
 }
 
 function only(element: Element, tag: string): Element {

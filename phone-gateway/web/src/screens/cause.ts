@@ -1,11 +1,12 @@
 /** Why something does not work, in one sentence, and the one thing to do about it. */
 import type {Commander} from "../commander";
-import {onPress} from "../controls/press";
+import {button} from "../controls/press";
 import {el} from "../dom";
 import {Notice_Component} from "../protocol/generated/remote_pb";
 import type {AppState, Problem, Store} from "../store";
 import {say} from "../text/texts";
 import type {TextKey} from "../text/texts";
+import type {Actions} from "./actions";
 
 export type Remedy = "reload" | "form" | "retry" | "robots" | "hand-over";
 
@@ -49,18 +50,12 @@ export function causeOf(state: Readonly<AppState>): Cause | null {
   return null;
 }
 
-export interface CauseActions {
-  retryNow(): void;
-  openForm(): void;
-  changeRobot(): void;
-}
-
-export function causeBar(store: Store, commander: Commander, act: CauseActions): HTMLElement {
+export function causeBar(store: Store, commander: Commander, act: Actions): HTMLElement {
   const bar = el("div", {class: "cause", role: "status", hidden: true});
   const remedies: Record<Remedy, () => void> = {
     reload: () => location.reload(),
     form: () => act.openForm(),
-    retry: () => act.retryNow(),
+    retry: () => act.retry(),
     robots: () => act.changeRobot(),
     "hand-over": () => void commander.handOver(),
   };
@@ -69,9 +64,8 @@ export function causeBar(store: Store, commander: Commander, act: CauseActions):
     bar.hidden = cause === null;
     if (!cause) return bar.replaceChildren();
     const {remedy} = cause;
-    const button = remedy ? el("button", {class: "button small primary", "data-remedy": remedy}, cause.button) : null;
-    if (button && remedy) onPress(button, remedies[remedy]);
-    bar.replaceChildren(el("p", {}, cause.text), ...(button ? [button] : []));
+    const help = remedy ? [button({class: "button small primary", "data-remedy": remedy}, remedies[remedy], cause.button)] : [];
+    bar.replaceChildren(el("p", {}, cause.text), ...help);
   };
   store.watch((state) => JSON.stringify(causeOf(state)), show);
   return bar;

@@ -1,26 +1,13 @@
 /** Where to connect to, and why it does not work just now. */
 import {chooseRobot, findBluetooth, isApple} from "../bluetooth/web_bluetooth";
-import type {BluetoothDevice} from "../bluetooth/web_bluetooth";
 import {el} from "../dom";
 import type {Gateway} from "../nearby";
 import {readForm} from "../settings";
 import type {Settings} from "../settings";
 import type {AppState, Problem, Store} from "../store";
 import {say} from "../text/texts";
+import type {Actions, ConnectionForm} from "./actions";
 import {reloadButton} from "./reload_button";
-
-export interface ConnectionForm {
-  address: string;
-  token: string;
-  clientName: string;
-}
-
-export interface ConnectionActions {
-  connect(form: ConnectionForm): void;
-  connectByBluetooth(form: ConnectionForm, device: BluetoothDevice): void;
-  cancel(): void;
-  retryNow(): void;
-}
 
 /** Problems of which the gateway knows more than this page. */
 const kDetailed: readonly Problem[] = ["closed", "not-a-robot", "too-many", "wrong-token", "wrong-version"];
@@ -37,8 +24,8 @@ export class ConnectionScreen {
   private readonly nearby = el("ul", {class: "recent nearby", hidden: true});
   private countdown: ReturnType<typeof setInterval> | undefined;
 
-  constructor(private readonly store: Store, private readonly actions: ConnectionActions) {
-    this.cancel = el("button", {class: "button", type: "button", onclick: () => actions.cancel()},
+  constructor(private readonly store: Store, private readonly act: Actions) {
+    this.cancel = el("button", {class: "button", type: "button", onclick: () => act.leave()},
                      say("connection.cancel"));
     const form = el("form", {class: "card", onsubmit: (event: Event) => this.submitted(event),
                              onpaste: () => setTimeout(() => this.read())},
@@ -64,7 +51,7 @@ export class ConnectionScreen {
     const others = settings.recent.filter((recent) => recent.address !== address);
     const items = others.map((recent) => el("li", {}, el("button", {
       class: "button quiet", type: "button",
-      onclick: () => this.actions.connect({...recent, clientName: this.clientName.value}),
+      onclick: () => this.act.connect({...recent, clientName: this.clientName.value}),
     }, recent.address)));
     this.recent.replaceChildren(...items);
     this.recent.hidden = items.length === 0;
@@ -78,7 +65,7 @@ export class ConnectionScreen {
     this.nearby.replaceChildren(el("li", {class: "quiet"}, say("connection.nearby")), ...gateways.map(
         ({name, address}) => el("li", {}, el("button", {
           class: "button quiet", type: "button",
-          onclick: () => this.actions.connect({address, token: "", clientName: this.clientName.value}),
+          onclick: () => this.act.connect({address, token: "", clientName: this.clientName.value}),
         }, `${name} (${address})`))));
   }
 
@@ -89,7 +76,7 @@ export class ConnectionScreen {
     const connect = async () => {
       const form = this.read();
       const device = await chooseRobot(bluetooth);
-      if (device) this.actions.connectByBluetooth(form, device);
+      if (device) this.act.connectByBluetooth(form, device);
     };
     return el("button", {class: "button quiet bluetooth", type: "button", onclick: () => void connect()},
               say("connection.bluetooth"));
@@ -97,8 +84,8 @@ export class ConnectionScreen {
 
   private submitted(event: Event): void {
     event.preventDefault();
-    if (this.store.get().phase === "waiting") return this.actions.retryNow();
-    this.actions.connect(this.read());
+    if (this.store.get().phase === "waiting") return this.act.retry();
+    this.act.connect(this.read());
   }
 
   /** Puts what was typed or pasted where it belongs. */

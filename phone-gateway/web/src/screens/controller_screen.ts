@@ -2,7 +2,7 @@
  * part is, says the grid of controller.css. */
 import type {Commander} from "../commander";
 import type {ImageView} from "../controls/image_view";
-import {onPress, onPressDown} from "../controls/press";
+import {iconButton, onPressDown} from "../controls/press";
 import type {TiltSensor} from "../controls/tilt_sensor";
 import type {WalkSender} from "../controls/walk_sender";
 import {el, icon} from "../dom";
@@ -12,25 +12,13 @@ import type {RobotDescription} from "../protocol/generated/remote_pb";
 import type {Store} from "../store";
 import {say} from "../text/texts";
 import type {TextKey} from "../text/texts";
+import type {Actions} from "./actions";
 import {Deck} from "./deck";
 import {kDownIcon, kJointsIcon, kMenuIcon, kMoreIcon, kSpeechIcon, kStopIcon, kWalkIcon} from "./icons";
 import type {JointsPanel} from "./joints_panel";
 import {linkSign} from "./link_sign";
 import {Status} from "./status";
 import {Sticks} from "./sticks";
-
-export interface ControllerActions {
-  openMenu(): void;
-  openSpeech(): void;
-  /** Shows the robots to choose from. */
-  changeRobot(): void;
-  setJointsMode(isOn: boolean): void;
-  stop(): void;
-  /** Explains the link sign. */
-  explainLink(): void;
-  /** The robot has walked: the hint has served. */
-  walked(): void;
-}
 
 export class ControllerScreen {
   readonly element: HTMLElement;
@@ -39,28 +27,25 @@ export class ControllerScreen {
   private readonly hint = el("p", {class: "hint", hidden: true}, el("span", {class: "by-touch"}, say("hint.walk")),
                              el("span", {class: "by-keys"}, say("hint.keys")));
   private readonly sticks: Sticks;
-  private readonly joints = navButton("joints-button", "drive.joints", kJointsIcon);
-  private readonly more = navButton("more-button", "drive.more", kMoreIcon);
+  private readonly joints: HTMLButtonElement;
+  private readonly more = navButton("more-button", "drive.more", kMoreIcon, () => this.setOpen(!this.element.classList.contains("open")));
 
   /** @param view  the robot in 3D. @param notes  messages and causes. */
   constructor(store: Store, commander: Commander, walk: WalkSender, private readonly view: HTMLElement,
               private readonly image: ImageView, private readonly panel: JointsPanel, tilt: TiltSensor, play: PlayStrip,
-              map: HTMLElement, notes: HTMLElement, private readonly act: ControllerActions) {
+              map: Element, notes: HTMLElement, private readonly act: Actions) {
     this.sticks = new Sticks(walk, tilt);
     this.sticks.onUse = () => this.hintServed();
     const stop = el("button", {class: "stop"}, icon(kStopIcon), el("span", {}, say("drive.stop")),
                     el("kbd", {"aria-hidden": "true"}, say("drive.stopKey")));
     onPressDown(stop, () => act.stop());
-    onPress(this.joints, () => act.setJointsMode(!store.get().isJointsMode));
-    onPress(this.more, () => this.setOpen(!this.element.classList.contains("open")));
-    const speech = navButton("speech-button", "drive.speak", kSpeechIcon);
-    onPress(speech, () => act.openSpeech());
-    const menu = navButton("menu-button", "drive.menu", kMenuIcon);
-    onPress(menu, () => act.openMenu());
+    this.joints = navButton("joints-button", "drive.joints", kJointsIcon, () => act.setJointsMode(!store.get().isJointsMode));
     this.element = el("section", {class: "screen controller-screen"},
       view, image.element, this.free, el("div", {class: "sheet"}),
       new Status(store, commander, () => act.changeRobot()).element, linkSign(store, () => act.explainLink()),
-      notes, el("nav", {class: "modes", "aria-label": say("drive.menu")}, this.joints, this.more, speech, menu),
+      notes, el("nav", {class: "modes", "aria-label": say("drive.menu")}, this.joints, this.more,
+         navButton("speech-button", "drive.speak", kSpeechIcon, () => act.openSpeech()),
+         navButton("menu-button", "drive.menu", kMenuIcon, () => act.openMenu())),
       new Deck(store, commander, play, map).element, this.hint,
       this.sticks.walkStick.element, stop, this.sticks.turnStick.element, panel.element);
     this.setOpen(false);
@@ -131,8 +116,8 @@ function canWalk(robot: RobotDescription | null): boolean {
   return robot !== null && (robot.maxVx > 0 || robot.maxVy > 0 || robot.maxWz > 0);
 }
 
-function navButton(name: string, key: TextKey, path: string): HTMLButtonElement {
-  return el("button", {class: `nav-button ${name}`}, icon(path), el("span", {}, say(key)));
+function navButton(name: string, key: TextKey, path: string, act: () => void): HTMLButtonElement {
+  return iconButton(`nav-button ${name}`, path, say(key), act);
 }
 
 function relabel(button: HTMLButtonElement, key: TextKey, path: string): void {

@@ -6,7 +6,6 @@ import {ballOf} from "../play/seen";
 import type {PlayStrip} from "../play/play_strip";
 import {isByItself} from "../play/play_words";
 import {Mode} from "../protocol/generated/remote_pb";
-import * as useCases from "../protocol/use_cases";
 import type {AppState, Store} from "../store";
 import {say, sayName} from "../text/texts";
 
@@ -27,9 +26,9 @@ export class Deck {
   private readonly actions: ChoiceStrip;
 
   /** @param map  of the field, shown with the rest. */
-  constructor(private readonly store: Store, commander: Commander, play: PlayStrip, map: HTMLElement) {
-    this.postures = new ChoiceStrip(say("drive.postures"), (name) => void commander.command(useCases.goToPosture(name)));
-    this.actions = new ChoiceStrip(say("drive.actions"), (name) => void commander.command(useCases.doAction(name)));
+  constructor(private readonly store: Store, commander: Commander, play: PlayStrip, map: Element) {
+    this.postures = new ChoiceStrip(say("drive.postures"), (name) => void commander.command({case: "goToPosture", value: {posture: name}}));
+    this.actions = new ChoiceStrip(say("drive.actions"), (name) => void commander.command({case: "doAction", value: {action: name}}));
     this.postures.element.classList.add("postures");
     this.actions.element.classList.add("actions");
     this.element = el("div", {class: "strips"}, play.element, this.postures.element, this.actions.element, map);

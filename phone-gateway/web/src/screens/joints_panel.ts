@@ -3,14 +3,15 @@
 import {ChoiceStrip} from "../controls/choice_strip";
 import {JointDriver} from "../controls/joint_driver";
 import {Joystick} from "../controls/joystick";
-import {onPress} from "../controls/press";
-import {el} from "../dom";
+import {button} from "../controls/press";
+import {el, setText} from "../dom";
 import type {Joint, JointGroup, State} from "../protocol/generated/remote_pb";
 import {cssColorOfAxis, jointOfAxis, kAxes} from "../robot/joint_balls";
 import type {Axis} from "../robot/joint_balls";
 import {jointPosition} from "../store";
 import type {Store} from "../store";
 import {say, sayName} from "../text/texts";
+import {kLimitPattern, vibrate} from "../vibrate";
 import type {TeachBar} from "./teach_bar";
 
 /** This near to a limit a joint is at its end, rad. */
@@ -18,11 +19,8 @@ const kAtLimit = 0.012;
 
 export interface JointsActions {
   reset(): void;
-  select(group: string): void;
   /** Makes the limb of a group limp, or stiff again. */
   relax(group: string): void;
-  /** A joint has come to the end of its range. */
-  atLimit(): void;
 }
 
 export class JointsPanel {
@@ -42,15 +40,13 @@ export class JointsPanel {
 
   constructor(private readonly store: Store, private readonly driver: JointDriver,
               readonly teachBar: TeachBar,
-              private readonly actions: JointsActions) {
+              actions: JointsActions) {
     this.stick = new Joystick(say("joints.move"), "joint", false, () => driver.setStick(this.stick.value), ["W", "A", "S", "D"]);
-    this.strip = new ChoiceStrip(say("joints.groups"), (name) => actions.select(name));
-    this.both = el("button", {class: "button small", "aria-pressed": "false"}, say("joints.both"));
-    onPress(this.both, () => this.toggleBoth());
-    this.relax = el("button", {class: "button small relax", title: say("teach.relaxHelp")}, say("teach.relax"));
-    onPress(this.relax, () => driver.group && actions.relax(driver.group.name));
-    const reset = el("button", {class: "button small"}, say("joints.reset"));
-    onPress(reset, () => actions.reset());
+    this.strip = new ChoiceStrip(say("joints.groups"), (selectedGroup) => store.set({selectedGroup}));
+    this.both = button({class: "button small", "aria-pressed": "false"}, () => this.toggleBoth(), say("joints.both"));
+    this.relax = button({class: "button small relax", title: say("teach.relaxHelp")},
+                        () => driver.group && actions.relax(driver.group.name), say("teach.relax"));
+    const reset = button({class: "button small"}, () => actions.reset(), say("joints.reset"));
     this.rollRow = paint("roll", el("label", {class: "roll"},
                                     el("span", {class: "joystick-label"}, say("joints.roll")), this.roll));
     this.roll.addEventListener("pointerdown", () => this.heldRoll = this.roll.valueAsNumber);
@@ -121,11 +117,11 @@ export class JointsPanel {
       row?.classList.toggle("at-limit", isAtLimit);
       const text = angleText(isOpening(group, axis), angle) + (isAtLimit ? ` · ${say("joints.limit")}` : "");
       const value = row?.querySelector("dd");
-      if (value && value.textContent !== text) value.textContent = text;
+      if (value) setText(value, text);
       if (isAtLimit) limit += axis;
       if (axis === "roll" && Number.isNaN(this.heldRoll)) this.roll.value = String(angle);
     }
-    if (limit && limit !== this.limitNow) this.actions.atLimit();
+    if (limit && limit !== this.limitNow) vibrate(kLimitPattern);
     this.limitNow = limit;
   }
 

@@ -1,8 +1,8 @@
 /** The poses of the draft as rows: times at sight, the rest opens with a tap on a row's name. Rows stay in place
  * while values change, so that the keyboard's and the screen reader's focus stays, too. */
-import {onPress} from "../controls/press";
+import {button, iconButton} from "../controls/press";
 import {Stepper} from "../controls/stepper";
-import {el, icon} from "../dom";
+import {el} from "../dom";
 import type {Store} from "../store";
 import type {DraftEditor} from "../teach/draft_editor";
 import {changeKeyframe, kMinDuration, moveKeyframe, removeKeyframe} from "../teach/motion_draft";
@@ -83,18 +83,17 @@ export class KeyframeList {
 
   private makeRow(index: number): Row {
     const number = index + 1;
-    const title = el("button", {class: "pose-title", "aria-expanded": "false"}, say("teach.pose", {number}));
-    onPress(title, () => this.open(index));
+    const title = button({class: "pose-title", "aria-expanded": "false"}, () => this.open(index), say("teach.pose", {number}));
     const duration = new Stepper("", (direction) => this.setTime(index, "duration", direction));
     const pause = new Stepper("", (direction) => this.setTime(index, "pause", direction));
-    const up = this.makeButton("motion.earlier", kUpIcon, () => this.move(index, -1));
-    const down = this.makeButton("motion.later", kDownIcon, () => this.move(index, 1));
+    const up = iconButton("button small", kUpIcon, say("motion.earlier"), () => this.move(index, -1));
+    const down = iconButton("button small", kDownIcon, say("motion.later"), () => this.move(index, 1));
     const more = el("div", {class: "pose-more"},
       el("div", {class: "row"}, el("span", {}, say("motion.pause")), pause.element),
       el("div", {class: "pose-buttons"}, up, down,
-         this.makeButton("motion.show", kPlayIcon, () => this.act.show(index)),
-         this.makeButton("motion.capture", kAddIcon, () => this.act.capture(index)),
-         this.makeButton("motion.remove", kDeleteIcon, () =>
+         iconButton("button small", kPlayIcon, say("motion.show"), () => this.act.show(index)),
+         iconButton("button small", kAddIcon, say("motion.capture"), () => this.act.capture(index)),
+         iconButton("button small", kDeleteIcon, say("motion.remove"), () =>
              this.editor.change(removeKeyframe(this.editor.draft, index)))));
     const element = el("li", {}, el("div", {class: "pose-row"}, title, duration.element), more);
     return {element, up, down, update: (keyframe, isOpen, isBad) => {
@@ -104,13 +103,6 @@ export class KeyframeList {
       showTime(duration, keyframe.duration, say("motion.duration", {number}));
       showTime(pause, keyframe.pause, say("motion.pause"));
     }};
-  }
-
-  private makeButton(key: "motion.earlier" | "motion.later" | "motion.show" | "motion.capture" | "motion.remove",
-                     path: string, act: () => void): HTMLButtonElement {
-    const button = el("button", {class: "button small"}, icon(path), el("span", {}, say(key)));
-    onPress(button, act);
-    return button;
   }
 }
 

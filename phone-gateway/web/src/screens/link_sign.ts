@@ -8,7 +8,7 @@ import {say} from "../text/texts";
 export const kShownAgeMs = 300;
 
 export function linkSign(store: Store, explain: () => void): HTMLButtonElement {
-  const text = el("span");
+  const text = el("bdi", {dir: "ltr"});
   const sign = el("button", {class: "link", onclick: explain},
                   el("span", {class: "bars", "aria-hidden": "true"}, el("i"), el("i"), el("i")), text);
   const show = (): void => {

@@ -1,48 +1,32 @@
 /** Settings and help: one sheet, over everything. */
 import {TiltSensor} from "../controls/tilt_sensor";
-import {el, icon} from "../dom";
-import {getLanguage, kLanguages, say} from "../text/texts";
+import {el} from "../dom";
+import {getLanguage, kLanguageNames, kLanguages, say} from "../text/texts";
 import type {Language, TextKey} from "../text/texts";
+import type {Actions} from "./actions";
+import {sheet} from "./sheet";
 
-const kLanguageNames: Record<Language, string> = {en: "English", pt: "Português", de: "Deutsch"};
 const kHelp: readonly TextKey[] = ["menu.helpWalk", "menu.helpView", "menu.helpImage",
                                    "menu.helpGround", "menu.helpKeys", "menu.helpPad"];
-
-export interface MenuActions {
-  /** @return whether tilting is on now. */
-  setTilt(isOn: boolean): Promise<boolean>;
-  setSwapped(isSwapped: boolean): void;
-  setLanguage(language: Language): void;
-  changeRobot(): void;
-  leave(): void;
-}
 
 export class MenuSheet {
   readonly element: HTMLDialogElement;
   private readonly condition = el("ul", {class: "help-list condition"});
   private readonly change = el("button", {class: "button wide change-robot", hidden: true,
-                                          onclick: () => this.changeRobot()}, say("lobby.open"));
+                                          onclick: this.closeAnd(() => this.act.changeRobot())}, say("lobby.open"));
 
-  constructor(isSwapped: boolean, private readonly actions: MenuActions) {
-    const language = el("select", {onchange: () => actions.setLanguage(language.value as Language)},
+  constructor(isSwapped: boolean, private readonly act: Actions) {
+    const language = el("select", {onchange: () => act.setLanguage(language.value as Language)},
       ...kLanguages.map((tag) => el("option", {value: tag, selected: tag === getLanguage()},
                                     kLanguageNames[tag])));
-    this.element = el("dialog", {class: "menu", "aria-label": say("menu.title")},
-      el("header", {}, el("h2", {}, say("menu.title")),
-         el("button", {class: "round", "aria-label": say("menu.close"),
-                       onclick: () => this.element.close()}, icon("M6 6l12 12M18 6L6 18"))),
-      this.tiltSwitch(),
-      switchRow(say("menu.swap"), "", isSwapped, false, (input) => actions.setSwapped(input.checked)),
+    this.element = sheet("settings", say("menu.title"), null, this.tiltSwitch(),
+      switchRow(say("menu.swap"), "", isSwapped, false, (input) => act.setSwapped(input.checked)),
       el("label", {class: "row"}, el("span", {}, say("menu.language")), language),
       el("h3", {}, say("body.title")), this.condition,
       el("h3", {}, say("menu.help")),
       el("ul", {class: "help-list"}, ...kHelp.map((key) => el("li", {}, say(key)))),
       el("div", {class: "menu-buttons"}, this.change,
-         el("button", {class: "button wide", onclick: () => this.leave()}, say("drive.leave"))));
-    // A tap beside the sheet closes it, as people expect.
-    this.element.addEventListener("click", (event) => {
-      if (event.target === this.element) this.element.close();
-    });
+         el("button", {class: "button wide", onclick: this.closeAnd(() => this.act.leave())}, say("drive.leave"))));
   }
 
   /** @param condition  Of the robot's body, one sentence each.
@@ -53,14 +37,11 @@ export class MenuSheet {
     this.element.showModal();
   }
 
-  private changeRobot(): void {
-    this.element.close();
-    this.actions.changeRobot();
-  }
-
-  private leave(): void {
-    this.element.close();
-    this.actions.leave();
+  private closeAnd(go: () => void): () => void {
+    return () => {
+      this.element.close();
+      go();
+    };
   }
 
   private tiltSwitch(): HTMLElement {
@@ -68,7 +49,7 @@ export class MenuSheet {
     const row = switchRow(say("menu.tilt"), say(isAvailable ? "menu.tiltHelp" : "menu.tiltMissing"), false,
                           !isAvailable, (input) => {
       const wasAsked = input.checked;
-      void this.actions.setTilt(wasAsked).then((isOn) => {
+      void this.act.setTilt(wasAsked).then((isOn) => {
         input.checked = isOn;
         row.querySelector("small")!.textContent = say(wasAsked && !isOn ? "menu.tiltRefused" : "menu.tiltHelp");
       });

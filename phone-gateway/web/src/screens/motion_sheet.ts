@@ -1,5 +1,5 @@
 /** The sheet of motions: names, changes and saves the draft, and lists what is saved. Stop is at hand. */
-import {onPress, onPressDown} from "../controls/press";
+import {iconButton, onPressDown} from "../controls/press";
 import {Stepper} from "../controls/stepper";
 import {el, icon} from "../dom";
 import type {MotionFault, Store} from "../store";
@@ -12,7 +12,9 @@ import {say, sayName} from "../text/texts";
 import {kCloseIcon, kMirrorIcon, kPlayIcon, kStopIcon, kUndoIcon} from "./icons";
 import {KeyframeList} from "./keyframe_list";
 import type {KeyframeActions} from "./keyframe_list";
+import {Note} from "./note";
 import {SavedList} from "./saved_list";
+import {sheet} from "./sheet";
 import {faultInWords} from "./teach_bar";
 
 const kSpeedStep = 0.1;
@@ -27,7 +29,7 @@ export class MotionSheet {
   readonly element: HTMLDialogElement;
   private readonly name = el("input", {name: "motion-name", maxlength: 40, autocomplete: "off", enterkeyhint: "done"});
   private readonly save: HTMLButtonElement;
-  private readonly note = el("div", {class: "note", role: "alert", hidden: true});
+  private readonly note = new Note();
   private readonly draft: HTMLElement;
   private readonly none = el("p", {class: "quiet"}, say("motion.none"));
   private readonly speed = new Stepper(say("motion.speed"), (direction) => this.changeSpeed(direction));
@@ -40,19 +42,12 @@ export class MotionSheet {
               private readonly act: MotionSheetActions) {
     this.save = el("button", {class: "button primary", type: "submit"}, say("teach.save"));
     this.name.addEventListener("input", () => this.editor.note({...this.editor.draft, name: this.name.value}));
-    this.undo = this.makeButton(say("motion.undo"), kUndoIcon, () => editor.undo());
+    this.undo = iconButton("button small", kUndoIcon, say("motion.undo"), () => editor.undo());
     this.draft = this.makeDraft();
-    const saved = new SavedList(store, editor, host, () => this.element.close(), () => this.opened());
+    const saved = new SavedList(store, editor, host, () => this.element.close(), () => this.element.scrollTop = 0);
     const stop = el("button", {class: "button small stop-small"}, icon(kStopIcon), say("drive.stop"));
     onPressDown(stop, () => act.stop());
-    this.element = el("dialog", {class: "menu motions", "aria-label": say("motion.title")},
-      el("header", {}, el("h2", {}, say("motion.title")), stop,
-         el("button", {class: "round", "aria-label": say("menu.close"),
-                       onclick: () => this.element.close()}, icon(kCloseIcon))),
-      this.none, this.draft, saved.element);
-    this.element.addEventListener("click", (event) => {
-      if (event.target === this.element) this.element.close();
-    });
+    this.element = sheet("motions", say("motion.title"), stop, this.none, this.draft, saved.element);
     store.watch((state) => state.draft, (draft) => this.show(draft));
     store.watch((state) => state.canUndoDraft, () => this.show(store.get().draft));
     store.watch((state) => state.isCheckingMotion, (isChecking) => {
@@ -78,13 +73,13 @@ export class MotionSheet {
       event.preventDefault();
       void this.saveDraft(false);
     }}, el("label", {}, el("span", {class: "label"}, say("motion.name")), this.name), this.save);
-    const play = this.makeButton(say("teach.play"), kPlayIcon, () => {
+    const play = iconButton("button small", kPlayIcon, say("teach.play"), () => {
       this.element.close();
       act.play();
     });
-    const mirrorButton = this.makeButton(say("motion.mirror"), kMirrorIcon, () =>
+    const mirrorButton = iconButton("button small", kMirrorIcon, say("motion.mirror"), () =>
         editor.change(mirror(editor.draft, this.store.get().robot?.joints ?? [])));
-    const clear = this.makeButton(say("motion.clear"), kCloseIcon, () => editor.clear());
+    const clear = iconButton("button small", kCloseIcon, say("motion.clear"), () => editor.clear());
     const list = new KeyframeList(this.store, editor, {
       capture: (index) => act.capture(index),
       show: (index) => {
@@ -92,16 +87,10 @@ export class MotionSheet {
         act.show(index);
       },
     });
-    return el("section", {class: "draft", "aria-label": say("motion.new")}, form, this.note, list.element,
+    return el("section", {class: "draft", "aria-label": say("motion.new")}, form, this.note.element, list.element,
       el("div", {class: "row"}, el("span", {}, say("motion.speed"), this.length), this.speed.element),
       el("div", {class: "row"}, el("span", {}, say("motion.repeat")), this.repeat.element),
       el("div", {class: "draft-buttons"}, play, mirrorButton, this.undo, clear));
-  }
-
-  private makeButton(text: string, path: string, act: () => void): HTMLButtonElement {
-    const button = el("button", {class: "button small"}, icon(path), el("span", {}, text));
-    onPress(button, act);
-    return button;
   }
 
   private show(draft: MotionDraft): void {
@@ -122,40 +111,25 @@ export class MotionSheet {
   }
 
   private showFault(fault: MotionFault | null): void {
-    this.note.hidden = true;
+    this.note.hide();
     if (!fault || fault.isUpload) return;
-    this.tell(faultInWords(fault), fault.repaired ? fault.repairText : "", () => this.act.repair());
-  }
-
-  private tell(text: string, button = "", act: () => void = () => {}): void {
-    const remedy = button ? el("button", {class: "button small", type: "button"}, button) : null;
-    if (remedy) onPress(remedy, act);
-    this.note.className = "note bad";
-    this.note.hidden = false;
-    this.note.replaceChildren(el("p", {}, text), ...(remedy ? [remedy] : []));
+    this.note.tell("bad", faultInWords(fault), fault.repaired ? fault.repairText : "", () => this.act.repair());
   }
 
   private async saveDraft(isReplacing: boolean): Promise<void> {
     const {draft, robot, savedMotions} = this.store.get();
     const name = motionName(draft.name);
     const isSaved = savedMotions.includes(name);
-    this.note.hidden = true;
-    if (!name) return this.tell(say("motion.nameMissing"));
-    if (!isSaved && robot?.actions.includes(name)) return this.tell(say("motion.nameBuiltIn"));
-    const askToReplace = (): void => this.tell(say("motion.nameInUse", {name: sayName("action", name)}),
+    this.note.hide();
+    if (!name) return this.note.tell("bad", say("motion.nameMissing"));
+    if (!isSaved && robot?.actions.includes(name)) return this.note.tell("bad", say("motion.nameBuiltIn"));
+    const askToReplace = (): void => this.note.tell("bad", say("motion.nameInUse", {name: sayName("action", name)}),
                                                say("motion.replace"), () => void this.saveDraft(true));
     if (isSaved && !isReplacing) return askToReplace();
     const result = await this.host.save({motion: toMotion(draft, name)}, isReplacing);
-    if (result === "name-in-use") return isReplacing ? this.tell(say("motion.nameBuiltIn")) : askToReplace();
+    if (result === "name-in-use") return isReplacing ? this.note.tell("bad", say("motion.nameBuiltIn")) : askToReplace();
     if (result !== "saved") return;
-    this.note.className = "note good";
-    this.note.hidden = false;
-    this.note.replaceChildren(el("p", {}, say("motion.saved", {name: sayName("action", name)})));
-  }
-
-  /** Another motion is the draft now. */
-  private opened(): void {
-    this.element.scrollTop = 0;
+    this.note.tell("good", say("motion.saved", {name: sayName("action", name)}));
   }
 
   private changeSpeed(direction: number): void {

@@ -1,15 +1,15 @@
 /** The motions saved on the robot's host: play, change, download, delete with undo, upload. */
-import {onPress} from "../controls/press";
+import {button} from "../controls/press";
 import {el, icon} from "../dom";
 import type {MotionFile} from "../protocol/generated/remote_pb";
-import type {MotionSource} from "../protocol/use_cases";
 import type {Store} from "../store";
 import type {DraftEditor} from "../teach/draft_editor";
 import {fromMotion} from "../teach/motion_draft";
 import {kMaxFileBytes} from "../teach/motion_host";
-import type {MotionHost} from "../teach/motion_host";
+import type {MotionHost, MotionSource} from "../teach/motion_host";
 import {say, sayName} from "../text/texts";
 import {kDeleteIcon, kDownloadIcon, kEditIcon, kPlayIcon, kUploadIcon} from "./icons";
+import {Note} from "./note";
 import {faultInWords} from "./teach_bar";
 
 export class SavedList {
@@ -17,7 +17,7 @@ export class SavedList {
   private readonly list = el("ul", {class: "saved-motions"});
   private readonly none = el("p", {class: "quiet"}, say("motion.noneSaved"));
   /** What happened to a file or a deleted motion, and what to do about it. */
-  private readonly note = el("div", {class: "note", role: "status", hidden: true});
+  private readonly note = new Note();
   private readonly input = el("input", {type: "file", accept: ".yaml,.yml,text/yaml", hidden: true,
                                         "aria-label": say("motion.upload")});
 
@@ -29,12 +29,12 @@ export class SavedList {
     upload.addEventListener("click", () => this.input.click());
     this.input.addEventListener("change", () => void this.upload());
     this.element = el("section", {class: "saved", "aria-label": say("motion.savedOnes")},
-                      el("h3", {}, say("motion.savedOnes")), this.none, this.list, this.note, upload, this.input);
+                      el("h3", {}, say("motion.savedOnes")), this.none, this.list, this.note.element, upload, this.input);
     store.watch((state) => state.savedMotions, (names) => this.show(names));
     store.watch((state) => state.motionFault, (fault) => {
       if (!fault?.isUpload) return;
       const {repaired} = fault;
-      this.tell("bad", faultInWords(fault), repaired ? say("motion.openRepaired") : "", () => {
+      this.note.tell("bad", faultInWords(fault), repaired ? say("motion.openRepaired") : "", () => {
         this.editor.change(fromMotion(repaired!));
         this.opened();
       });
@@ -71,14 +71,14 @@ export class SavedList {
   private async remove(name: string): Promise<void> {
     const file = await this.host.remove(name);
     if (!file) return;
-    this.tell("good", say("motion.removed", {name: sayName("action", name)}), say("motion.undo"),
+    this.note.tell("good", say("motion.removed", {name: sayName("action", name)}), say("motion.undo"),
               () => void this.restore(file));
   }
 
   /** Saves what was deleted. */
   private async restore({motion, yaml}: MotionFile): Promise<void> {
     const result = await this.host.save(yaml ? {yaml} : {motion: motion!}, false);
-    if (result === "saved") this.note.hidden = true;
+    if (result === "saved") this.note.hide();
   }
 
   private async upload(): Promise<void> {
@@ -86,7 +86,7 @@ export class SavedList {
     // The same file may be chosen again after it was changed.
     if (!file) return;
     if (file.size > kMaxFileBytes) {
-      this.tell("bad", say("motion.fileTooLarge", {size: kMaxFileBytes / 1000}));
+      this.note.tell("bad", say("motion.fileTooLarge", {size: kMaxFileBytes / 1000}));
     } else {
       await this.saveText({yaml: await file.text()}, file.name, false);
     }
@@ -94,37 +94,21 @@ export class SavedList {
   }
 
   private async saveText(source: MotionSource, name: string, isReplacing: boolean): Promise<void> {
-    this.tell("good", say("teach.checking"));
+    this.note.tell("good", say("teach.checking"));
     const result = await this.host.save(source, isReplacing);
-    if (result === "saved") this.tell("good", say("motion.uploaded"));
-    else if (result === "refused") this.note.hidden = true;
-    else if (result === "name-in-use" && isReplacing) this.tell("bad", say("motion.nameBuiltIn"));
+    if (result === "saved") this.note.tell("good", say("motion.uploaded"));
+    else if (result === "refused") this.note.hide();
+    else if (result === "name-in-use" && isReplacing) this.note.tell("bad", say("motion.nameBuiltIn"));
     else if (result === "name-in-use") {
-      this.tell("bad", say("motion.nameInUse", {name}), say("motion.replace"),
+      this.note.tell("bad", say("motion.nameInUse", {name}), say("motion.replace"),
                 () => void this.saveText(source, name, true));
     }
-  }
-
-  private tell(kind: "good" | "bad", text: string, button = "", act: () => void = () => {}): void {
-    const remedy = button ? el("button", {class: "button small"}, button) : null;
-    if (remedy) {
-      onPress(remedy, () => {
-        this.note.hidden = true;
-        act();
-      });
-    }
-    this.note.className = `note ${kind}`;
-    this.note.hidden = false;
-    this.note.replaceChildren(el("p", {}, text), ...(remedy ? [remedy] : []));
-    this.note.scrollIntoView?.({block: "nearest"});
   }
 
   private makeButton(key: "motion.playNamed" | "motion.editNamed" | "motion.downloadNamed" | "motion.removeNamed",
                      name: string, path: string, act: () => void): HTMLButtonElement {
     const label = say(key, {name: sayName("action", name)});
-    const button = el("button", {class: "round", "aria-label": label, "data-act": key}, icon(path));
-    onPress(button, act);
-    return button;
+    return button({class: "round", "aria-label": label, "data-act": key}, act, icon(path));
   }
 }
 

@@ -2,6 +2,8 @@
 import {el, icon} from "../dom";
 import {getLanguage, say, sayName} from "../text/texts";
 import type {TextKey} from "../text/texts";
+import {kCloseIcon} from "./icons";
+import {sheet} from "./sheet";
 
 const kMaxBytes = 1000;
 const kColors: readonly [TextKey, number][] = [
@@ -9,7 +11,6 @@ const kColors: readonly [TextKey, number][] = [
   ["lights.cyan", 0x00ffff], ["lights.blue", 0x0040ff], ["lights.magenta", 0xff00ff], ["lights.white", 0xffffff],
   ["lights.off", 0x000000],
 ];
-const kCloseIcon = "M6 6l12 12M18 6L6 18";
 
 export interface SpeechActions {
   say(text: string, language: string): void;
@@ -48,11 +49,7 @@ export class SpeechSheet {
       el("label", {class: "row"}, el("span", {}, say("lights.which")), this.which),
       el("div", {class: "swatches", role: "group", "aria-label": say("lights.title")},
          ...kColors.map(([key, rgb]) => this.swatch(key, rgb))));
-    this.element = el("dialog", {class: "menu speech-sheet", "aria-label": say("speech.title")},
-      el("header", {}, el("h2", {}, say("speech.title")),
-         el("button", {class: "round", "aria-label": say("menu.close"), onclick: () => this.element.close()},
-            icon(kCloseIcon))),
-      this.text, this.fault,
+    this.element = sheet("speech-sheet", say("speech.title"), null, this.text, this.fault,
       el("div", {class: "speech-buttons"},
          el("button", {class: "button primary speech-say", onclick: () => this.sayText()}, say("speech.say")),
          el("button", {class: "button speech-stop", onclick: () => actions.stop()}, say("speech.stop")),
@@ -62,20 +59,16 @@ export class SpeechSheet {
       el("label", {class: "row"}, el("span", {}, say("speech.here"),
                                      el("small", {class: "quiet"}, say("speech.hereHelp"))), playing),
       el("h3", {}, say("lights.title")), this.lights);
-    // A tap beside the sheet closes it, as people expect.
-    this.element.addEventListener("click", (event) => {
-      if (event.target === this.element) this.element.close();
-    });
   }
 
   open(): void {
     this.element.showModal();
   }
 
-  /** @param tags  BCP 47. @param chosen  one of them; empty: the page's. */
+  /** @param tags  BCP 47. @param chosen  one of them; else it is the page's, or English. */
   setLanguages(tags: readonly string[], chosen: string): void {
     const names = new Intl.DisplayNames([getLanguage()], {type: "language"});
-    const selected = tags.includes(chosen) ? chosen : getLanguage();
+    const selected = [chosen, getLanguage(), "en"].find((tag) => tags.includes(tag));
     const options = tags.map((tag) => ({tag, name: names.of(tag) ?? tag}))
         .sort((a, b) => a.name.localeCompare(b.name));
     this.language.replaceChildren(...options.map(({tag, name}) =>

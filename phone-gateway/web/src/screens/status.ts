@@ -1,6 +1,6 @@
 /** What lies on the views: what the robot does, and who drives it. */
 import type {Commander} from "../commander";
-import {onPress} from "../controls/press";
+import {button} from "../controls/press";
 import {el, setText} from "../dom";
 import {scoreboard} from "../match/scoreboard";
 import {isByItself, playInWords} from "../play/play_words";
@@ -23,12 +23,11 @@ export class Status {
   private readonly battery = el("span", {class: "battery"});
   private readonly warning = el("span", {class: "body-warning", role: "status"});
   private readonly driver = el("span", {class: "driver-name"});
-  private readonly ask = el("button", {class: "button small driver-button"});
+  private readonly ask = button({class: "button small driver-button"}, () => this.changeDriver());
   private readonly robot: HTMLButtonElement;
 
   /** @param changeRobot  shows the robots to choose from. */
   constructor(private readonly store: Store, private readonly commander: Commander, changeRobot: () => void) {
-    onPress(this.ask, () => this.changeDriver());
     this.robot = el("button", {class: "robot-tag", hidden: true, onclick: changeRobot});
     this.body.append(this.battery, this.warning);
     this.element = el("div", {class: "status"},
@@ -64,7 +63,7 @@ export class Status {
         say(control?.isMuted ? "control.muted" : "control.free");
     const isNext = this.isNext;
     const next = !control?.nextId ? "" : isNext ? say("control.youNext") : say("control.next", {name: control.nextName});
-    setText(this.driver, next ? `${driver}, ${next}` : driver);
+    setText(this.driver, next ? say("lobby.list", {first: driver, second: next}) : driver);
     // While another client waits there is nothing to ask for, and its request has its own button.
     this.ask.hidden = who === "free" || (control?.isMuted ?? false) || (next !== "" && !isNext);
     setText(this.ask, say(who === "mine" ? "control.release" : isNext ? "control.withdraw" : "control.ask"));

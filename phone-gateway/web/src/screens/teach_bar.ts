@@ -1,6 +1,6 @@
 /** Joints mode's bar for teaching: adds poses, plays them, opens the sheet of motions, and shows why a
  * motion is not safe. */
-import {onPress} from "../controls/press";
+import {button, iconButton} from "../controls/press";
 import {el, icon} from "../dom";
 import {CommandKind} from "../protocol/generated/remote_pb";
 import type {State} from "../protocol/generated/remote_pb";
@@ -21,8 +21,6 @@ export interface TeachBarActions {
 
 export class TeachBar {
   readonly element: HTMLElement;
-  /** What is always there; the rest comes and goes above it. */
-  readonly buttons: HTMLElement;
   private readonly fault = el("div", {class: "teach-fault", role: "alert", hidden: true});
   private readonly dots = el("ol", {class: "pose-dots", tabindex: 0, "aria-label": say("teach.poses")});
   private readonly status = el("p", {class: "unseen", role: "status"});
@@ -32,15 +30,11 @@ export class TeachBar {
   private current = -1;
 
   constructor(private readonly store: Store, private readonly act: TeachBarActions) {
-    const add = el("button", {class: "button small teach-add"}, icon(kAddIcon), el("span", {}, say("teach.add")));
-    onPress(add, () => act.addPose());
-    this.play = el("button", {class: "button small teach-play"}, icon(kPlayIcon), this.playText);
-    onPress(this.play, () => act.play());
-    this.open = el("button", {class: "button small teach-open"});
-    onPress(this.open, () => act.open());
-    this.buttons = el("div", {class: "teach-buttons"}, add, this.play, this.open);
-    this.element = el("section", {class: "teach-bar", "aria-label": say("teach.bar")},
-                      this.fault, this.status, this.dots, this.buttons);
+    this.play = iconButton("button small teach-play", kPlayIcon, this.playText, () => act.play());
+    this.open = button({class: "button small teach-open"}, () => act.open());
+    this.element = el("section", {class: "teach-bar", "aria-label": say("teach.bar")}, this.fault, this.status, this.dots,
+      el("div", {class: "teach-buttons"},
+         iconButton("button small teach-add", kAddIcon, say("teach.add"), () => act.addPose()), this.play, this.open));
     store.watch((state) => state.draft.keyframes.length, (number) => this.showNumber(number));
     store.watch((state) => state.isCheckingMotion, (isChecking) => this.showChecking(isChecking));
     store.watch((state) => state.motionFault, (fault) => this.showFault(fault));
@@ -73,11 +67,9 @@ export class TeachBar {
       dot.classList.toggle("bad", isShown && i === fault.keyframe);
     }
     if (!isShown) return;
-    const close = el("button", {class: "round", "aria-label": say("teach.dismiss")}, icon(kCloseIcon));
-    onPress(close, () => this.store.set({motionFault: null}));
-    const repair = fault.repaired ? el("button", {class: "button small primary"}, fault.repairText) : null;
-    if (repair) onPress(repair, () => this.act.repair());
-    this.fault.replaceChildren(el("p", {}, faultInWords(fault)), close, ...(repair ? [repair] : []));
+    const close = button({class: "round", "aria-label": say("teach.dismiss")}, () => this.store.set({motionFault: null}), icon(kCloseIcon));
+    const repair = fault.repaired ? [button({class: "button small primary"}, () => this.act.repair(), fault.repairText)] : [];
+    this.fault.replaceChildren(el("p", {}, faultInWords(fault)), close, ...repair);
   }
 
   /** Marks the pose that the robot goes to while the draft is played. */

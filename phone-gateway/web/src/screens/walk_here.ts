@@ -1,6 +1,7 @@
 /** Tap to walk: a tap marks a spot on the ground, a second one on "Walk here" sends the robot there. */
 import {walkTo} from "../controls/ground_target";
 import type {RelativePose} from "../controls/ground_target";
+import {Offer} from "../controls/offer";
 import {el} from "../dom";
 import type {Stage} from "../robot/stage";
 import {say} from "../text/texts";
@@ -9,19 +10,13 @@ import {say} from "../text/texts";
 const kMaxDistance = 3;
 /** Taps closer to the robot than this are not walk goals, m. */
 const kMinDistance = 0.15;
-const kShownMs = 6000;
-/** Half the button's width and some air, px. */
-const kMargin = 80;
 
 export class WalkHere {
-  readonly element: HTMLButtonElement;
+  readonly element = el("button", {class: "button primary walk-here", hidden: true, onclick: () => this.chosen()}, say("drive.walkHere"));
   private spot: {x: number; y: number} | null = null;
-  private timer: ReturnType<typeof setTimeout> | undefined;
+  private readonly offer = new Offer(this.element, () => this.forget());
 
-  constructor(private readonly stage: Stage, private readonly go: (pose: RelativePose) => void) {
-    this.element = el("button", {class: "button primary walk-here", hidden: true,
-                                 onclick: () => this.chosen()}, say("drive.walkHere"));
-  }
+  constructor(private readonly stage: Stage, private readonly go: (pose: RelativePose) => void) {}
 
   /** A tap on the stage, px from its top left. */
   tapped(x: number, y: number): void {
@@ -32,20 +27,18 @@ export class WalkHere {
     this.spot = spot;
     this.stage.floor.mark(spot, robot);
     this.stage.outdate();
-    this.element.hidden = false;
-    clearTimeout(this.timer);
-    this.timer = setTimeout(() => this.clear(), kShownMs);
-    // Above the spot, where no control lies, as it is now: a button that sways with the view is hard to hit.
-    const left = Math.min(Math.max(x, kMargin), this.stage.size.width - kMargin);
-    this.element.style.transform = `translate(${left}px, ${y}px) translate(-50%, calc(-100% - 30px))`;
+    // As it is now: a button that sways with the view is hard to hit.
+    this.offer.show(x, y, this.stage.size.width);
   }
 
   clear(): void {
-    clearTimeout(this.timer);
+    this.offer.clear();
+  }
+
+  private forget(): void {
     this.spot = null;
     this.stage.floor.mark(null);
     this.stage.outdate();
-    this.element.hidden = true;
   }
 
   private chosen(): void {

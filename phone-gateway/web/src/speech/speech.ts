@@ -1,7 +1,7 @@
 /** Speech and lights: the sheet, what this phone plays, and the lights on the robot that is drawn. */
 import type {Commander} from "../commander";
+import {Say_Operation} from "../protocol/generated/remote_pb";
 import type {Audio} from "../protocol/generated/remote_pb";
-import * as useCases from "../protocol/use_cases";
 import {RobotLights} from "../robot/robot_lights";
 import type {Stage} from "../robot/stage";
 import {SpeechSheet} from "../screens/speech_sheet";
@@ -24,9 +24,9 @@ export class Speech {
     this.player = new AudioPlayer(sound);
     this.settings = loadSpeechSettings(storage);
     this.sheet = new SpeechSheet(this.settings.isPlaying, {
-      say: (text, language) => void commander.command(useCases.sayText(text, language)),
-      stop: () => void commander.command(useCases.stopSpeaking()),
-      setLights: (names, rgb) => void commander.command(useCases.setLights(names, rgb)),
+      say: (text, language) => void commander.command({case: "say", value: {text, language}}),
+      stop: () => void commander.command({case: "say", value: {operation: Say_Operation.STOP}}),
+      setLights: (names, rgb) => void commander.command({case: "setLights", value: {lightNames: [...names], lightRgb: names.map(() => rgb)}}),
       keep: (phrase) => this.setPhrases(keepPhrase(this.phrases, phrase)),
       forget: (phrase) => this.setPhrases(this.phrases.filter((other) => other !== phrase)),
       setLanguage: (language) => this.keep({language}),
@@ -65,7 +65,7 @@ export class Speech {
 
   private showLights(rgb: readonly number[]): void {
     const {robot} = this.store.get();
-    const tree = this.stage.robotTree;
+    const tree = this.stage.robot;
     if (!robot || !tree) return;
     if (this.lights?.tree !== tree) {
       this.lights?.dispose();

@@ -1,4 +1,5 @@
 /** What the phone remembers about speech. */
+import {keep, recall} from "../storage";
 
 const kKey = "nao-remote-speech";
 const kMaxPhrases = 30;
@@ -12,29 +13,18 @@ export interface SpeechSettings {
   isPlaying: boolean;
 }
 
-const kDefaults: SpeechSettings = {phrases: null, language: "", isPlaying: false};
-
 /** Reads the settings; those that another version wrote badly count as not there. */
 export function loadSpeechSettings(storage: Storage | null): SpeechSettings {
-  try {
-    const {phrases, language, isPlaying} = JSON.parse(storage?.getItem(kKey) ?? "{}") as Partial<SpeechSettings>;
-    return {
-      phrases: Array.isArray(phrases) ? phrases.filter((phrase) => typeof phrase === "string").slice(0, kMaxPhrases)
-          : null,
-      language: typeof language === "string" ? language : "",
-      isPlaying: isPlaying === true,
-    };
-  } catch {
-    return {...kDefaults};
-  }
+  const {phrases, language, isPlaying} = recall<SpeechSettings>(storage, kKey) ?? {};
+  return {
+    phrases: Array.isArray(phrases) ? phrases.filter((phrase) => typeof phrase === "string").slice(0, kMaxPhrases) : null,
+    language: typeof language === "string" ? language : "",
+    isPlaying: isPlaying === true,
+  };
 }
 
 export function saveSpeechSettings(storage: Storage | null, settings: SpeechSettings): void {
-  try {
-    storage?.setItem(kKey, JSON.stringify(settings));
-  } catch {
-    // Private browsing without storage: the app works, it only forgets.
-  }
+  keep(storage, kKey, settings);
 }
 
 /** Puts a phrase in front of those that are kept. */

@@ -1,6 +1,7 @@
 /** The draft in the store: remembers what it was before each change, and survives a reload. */
+import {keep, recall} from "../storage";
 import type {Store} from "../store";
-import type {MotionDraft, Pose} from "./motion_draft";
+import type {DraftKeyframe, MotionDraft, Pose} from "./motion_draft";
 import {kEmptyDraft, kMaxKeyframes, setRepetitions, setSpeed} from "./motion_draft";
 
 const kKey = "nao-remote-draft";
@@ -44,33 +45,24 @@ export class DraftEditor {
   private put(draft: MotionDraft): void {
     // A fault was found in what the draft was before.
     this.store.set({draft, canUndoDraft: this.history.length > 0, motionFault: null});
-    try {
-      this.storage?.setItem(kKey, JSON.stringify(draft));
-    } catch {
-      // Storage is full or forbidden: the draft lives as long as the page.
-    }
+    keep(this.storage, kKey, draft);
   }
 }
 
 /** The draft of before the reload; an empty one if none was kept, or by another version. */
 export function readDraft(storage: Storage | null): MotionDraft {
-  try {
-    const found = JSON.parse(storage?.getItem(kKey) ?? "null") as Partial<MotionDraft> | null;
-    if (!found || !Array.isArray(found.keyframes)) return kEmptyDraft;
-    const keyframes = found.keyframes.slice(0, kMaxKeyframes);
-    const isGood = keyframes.every((keyframe) => isTime(keyframe?.duration) && isTime(keyframe.pause) && isPose(keyframe.pose));
-    if (!isGood) return kEmptyDraft;
-    const draft = {
-      ...kEmptyDraft, keyframes,
-      name: typeof found.name === "string" ? found.name : "",
-      start: typeof found.start === "string" ? found.start : "",
-      base: isPose(found.base) ? found.base : {},
-      touched: Array.isArray(found.touched) ? found.touched.filter((name) => typeof name === "string") : [],
-    };
-    return setRepetitions(setSpeed(draft, numberOr(found.speed, 1)), numberOr(found.repetitions, 1));
-  } catch {
-    return kEmptyDraft;
-  }
+  const found = recall<MotionDraft>(storage, kKey);
+  if (!Array.isArray(found?.keyframes)) return kEmptyDraft;
+  const keyframes = found.keyframes.slice(0, kMaxKeyframes) as Partial<DraftKeyframe>[];
+  if (!keyframes.every((keyframe) => isTime(keyframe?.duration) && isTime(keyframe.pause) && isPose(keyframe.pose))) return kEmptyDraft;
+  const draft = {
+    ...kEmptyDraft, keyframes: keyframes as DraftKeyframe[],
+    name: typeof found.name === "string" ? found.name : "",
+    start: typeof found.start === "string" ? found.start : "",
+    base: isPose(found.base) ? found.base : {},
+    touched: Array.isArray(found.touched) ? found.touched.filter((name) => typeof name === "string") : [],
+  };
+  return setRepetitions(setSpeed(draft, numberOr(found.speed, 1)), numberOr(found.repetitions, 1));
 }
 
 function isTime(value: unknown): value is number {

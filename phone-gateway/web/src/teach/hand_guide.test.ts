@@ -31,8 +31,8 @@ describe("HandGuide", () => {
   });
 
   it("repeats a pull while the finger holds it, at the finger's last place", () => {
-    guide.drag("wrist", [0, 0, 0], [0.1, 0.2, 0.3]);
-    guide.drag("wrist", [0, 0, 0], [0.4, 0.2, 0.3]);
+    guide.drag({link: "wrist", targetX: 0.1, targetZ: 0.3});
+    guide.drag({link: "wrist", targetX: 0.4, targetZ: 0.3});
     expect(sent).toHaveLength(1);
     vi.advanceTimersByTime(2 * kDragPeriodMs);
     expect(sent).toHaveLength(3);

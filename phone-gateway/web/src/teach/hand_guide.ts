@@ -1,8 +1,7 @@
 /** Moves limbs by hand: makes them limp or stiff, and pulls them in a simulation. */
 import type {Commander} from "../commander";
 import {Repeater} from "../controls/repeater";
-import * as useCases from "../protocol/use_cases";
-import type {Point} from "../protocol/use_cases";
+import type {UseCaseValue} from "../protocol/codec";
 import type {Store} from "../store";
 
 /** A pull ends 0.2 s after the last request, and wants one every 0.1 s. */
@@ -12,7 +11,7 @@ export const kStiffnessMs = 600;
 
 export class HandGuide {
   private readonly repeater = new Repeater(() => this.send(), kDragPeriodMs);
-  private pull: {link: string; point: Point; target: Point} | null = null;
+  private pull: UseCaseValue<"drag"> | null = null;
 
   constructor(private readonly store: Store, private readonly commander: Commander) {}
 
@@ -27,10 +26,9 @@ export class HandGuide {
     await this.setStiffness(this.store.get().relaxedGroups, 1);
   }
 
-  /** Pulls a link until endDrag(). @param point  fixed to the link, in its frame, m.
-   * @param target  where it goes, in the torso's frame, m. */
-  drag(link: string, point: Point, target: Point): void {
-    this.pull = {link, point, target};
+  /** Pulls a link of a simulated robot until endDrag(). */
+  drag(pull: UseCaseValue<"drag">): void {
+    this.pull = pull;
     this.repeater.start();
   }
 
@@ -40,7 +38,7 @@ export class HandGuide {
   }
 
   private send(): void {
-    if (this.pull) this.commander.stream(useCases.drag(this.pull.link, this.pull.point, this.pull.target));
+    if (this.pull) this.commander.stream({case: "drag", value: this.pull});
   }
 
   /** Commands one group after the other, and ends when all have their stiffness. */
@@ -48,7 +46,7 @@ export class HandGuide {
     let isChanging = false;
     for (const group of groups) {
       // Refused for one joint of a limb: told once, and the others are left as they are.
-      if (!(await this.commander.command(useCases.setStiffness(group, stiffness)))) break;
+      if (!(await this.commander.command({case: "changeJoints", value: {group, stiffness}}))) break;
       const others = this.store.get().relaxedGroups.filter((one) => one !== group);
       this.store.set({relaxedGroups: stiffness === 0 ? [...others, group] : others});
       isChanging = true;

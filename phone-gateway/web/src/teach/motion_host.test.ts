@@ -107,7 +107,7 @@ describe("MotionHost", () => {
     asked.length = 0;
     await host.playSaved("wave");
     expect(cases()).toEqual(["changeJoints", "changeJoints", "doAction"]);
-    expect(asked[0]).toMatchObject({value: {group: "arm", stiffness: 1, pitch: 0}});
+    expect(asked[0]).toMatchObject({value: {group: "arm", stiffness: 1}});
     expect(store.get().relaxedGroups).toEqual([]);
   });
 

@@ -1,18 +1,18 @@
 /** Motions on the robot's host: checks and plays the draft, saves, fetches and deletes motions. */
 import type {Commander} from "../commander";
 import {ErrorCode} from "../protocol/generated/remote_pb";
-import type {MotionFile, Response} from "../protocol/generated/remote_pb";
-import type {MotionSource} from "../protocol/use_cases";
-import * as useCases from "../protocol/use_cases";
+import type {Motion, MotionFile, Response} from "../protocol/generated/remote_pb";
 import type {MotionFault, Store} from "../store";
-import {reasonInWords} from "../text/reasons";
-import {isText, say} from "../text/texts";
+import {isText, reasonInWords, say} from "../text/texts";
 import {toMotion} from "./motion_draft";
 import type {MotionDraft} from "./motion_draft";
 import {kTemporaryName} from "./motion_name";
 
 /** Largest file that the gateway takes, in a request that it takes; bytes. */
 export const kMaxFileBytes = 262_000;
+
+/** A motion as keyframes, or as the text of a file. */
+export type MotionSource = {motion: Motion} | {yaml: string};
 
 /** What came of saving: "fault" is in the store; "refused" was shown as a message. */
 export type SaveResult = "saved" | "name-in-use" | "fault" | "refused";
@@ -37,7 +37,7 @@ export class MotionHost {
   async playSaved(name: string): Promise<boolean> {
     const {attempt} = this;
     await this.stiffen();
-    return attempt === this.attempt && this.commander.command(useCases.doAction(name));
+    return attempt === this.attempt && this.commander.command({case: "doAction", value: {action: name}});
   }
 
   /** Gives up what is being checked: it will not be played. */
@@ -50,7 +50,7 @@ export class MotionHost {
   async save(source: MotionSource, replace: boolean): Promise<SaveResult> {
     const attempt = ++this.attempt;
     this.store.set({isCheckingMotion: true, motionFault: null});
-    const response = await this.commander.ask(useCases.saveMotion(source, replace));
+    const response = await this.commander.ask({case: "saveMotion", value: {motion: source, replace}});
     const isCurrent = attempt === this.attempt;
     if (isCurrent) this.store.set({isCheckingMotion: false});
     if (response?.error === ErrorCode.NAME_IN_USE) return "name-in-use";
@@ -62,14 +62,14 @@ export class MotionHost {
 
   /** A saved motion as keyframes and as text; null if it could not be had. */
   async get(name: string): Promise<MotionFile | null> {
-    const response = await this.commander.fetch(useCases.getMotion(name));
+    const response = await this.commander.fetch({case: "getMotion", value: {name}});
     return this.commander.report(response) && response?.result.case === "motionFile" ? response.result.value : null;
   }
 
   /** Deletes a saved motion. @return what it was, for an undo; null if it was not deleted. */
   async remove(name: string): Promise<MotionFile | null> {
     const file = await this.get(name);
-    return file && (await this.commander.command(useCases.deleteMotion(name))) ? file : null;
+    return file && (await this.commander.command({case: "deleteMotion", value: {name}})) ? file : null;
   }
 }
 

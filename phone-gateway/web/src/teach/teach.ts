@@ -1,7 +1,7 @@
 /** Teaching motions: joins the draft, the robot's host, the hands on the robot and the two views. */
 import type {Commander} from "../commander";
 import type {Messages} from "../messages";
-import type {JointChange} from "../protocol/use_cases";
+import type {JointChange} from "../controls/joint_change";
 import type {RobotView} from "../robot/robot_view";
 import type {Grip} from "../robot/stage_gestures";
 import {MotionSheet} from "../screens/motion_sheet";
@@ -97,7 +97,7 @@ export class Teach {
     return {
       move: (toX, toY) => {
         const target = held.drag.targetAt(toX, toY);
-        if (target) this.guide.drag(held.link, [0, 0, 0], target);
+        if (target) this.guide.drag({link: held.link, targetX: target.x, targetY: target.y, targetZ: target.z});
       },
       end: () => this.guide.endDrag(),
     };

@@ -9,9 +9,9 @@ const inWords = (kind: CommandKind, name = "", needsHelp = false): string =>
     activityInWords(create(ActivitySchema, {kind, name, needsHelp}));
 
 describe("activityInWords", () => {
-  it("names postures and actions as their buttons do", () => {
+  it("names postures and actions as their buttons do", async () => {
     setLabels(readLabels(new URL("../../../../data/robots/nao", import.meta.url).pathname));
-    setLanguage("de");
+    await setLanguage("de");
     expect(inWords(CommandKind.POSTURE, "StandInit")).toBe("Startklar");
     expect(inWords(CommandKind.ACTION, "kick-left")).toBe("Schuss links");
     expect(inWords(CommandKind.ACTION, "_draft")).toBe("Neue Bewegung");

@@ -11,17 +11,17 @@ const robot = create(RobotDescriptionSchema, {
 });
 
 describe("bodyInWords", () => {
-  it("tells battery, hottest motor and warnings in three languages", () => {
+  it("tells battery, hottest motor and warnings in three languages", async () => {
     setLabels(readLabels(new URL("../../../../data/robots/nao", import.meta.url).pathname));
     const body = create(BodySchema, {
       batteryCharge: 0.634, isCharging: true, hottestJoint: "LKneePitch", hottestTemperature: 76.4,
       warnings: ["joint-hot", "shell-open"], faultyJoints: ["LKneePitch", "LKneePitch", "Tail"],
     });
-    setLanguage("de");
+    await setLanguage("de");
     expect(bodyInWords(body, robot)).toEqual([
       "Akku 63 %, lädt", expect.stringMatching(/^Wärmster Motor: .+, 76 °C$/),
       expect.stringMatching(/^Ein Motor ist heiß \(.+, Tail\): lass den Roboter sitzen\.$/), "shell-open"]);
-    setLanguage("pt");
+    await setLanguage("pt");
     expect(bodyInWords(body, robot)[0]).toBe("Bateria 63 %, a carregar");
     setLanguage("en");
     expect(warningsInWords(body, robot)).toHaveLength(2);

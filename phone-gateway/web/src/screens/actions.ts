@@ -1,0 +1,37 @@
+/** What the screens ask of the app. */
+import type {BluetoothDevice} from "../bluetooth/web_bluetooth";
+import type {Language} from "../text/texts";
+
+/** What stands in the form for a connection. */
+export interface ConnectionForm {
+  address: string;
+  token: string;
+  clientName: string;
+}
+
+export interface Actions {
+  connect(form: ConnectionForm): void;
+  connectByBluetooth(form: ConnectionForm, device: BluetoothDevice): void;
+  openForm(): void;
+  /** Connects at once. */
+  retry(): void;
+  leave(): void;
+  /** Ends all driving and joints mode. */
+  letGo(): void;
+  /** What is streamed depends on what is seen. */
+  subscribe(): void;
+  /** Shows the robots to choose from. */
+  changeRobot(): void;
+  openMenu(): void;
+  openSpeech(): void;
+  setJointsMode(isOn: boolean): void;
+  stop(): void;
+  explainLink(): void;
+  /** The person has walked the robot: the hint has served. */
+  walked(): void;
+  /** @return whether tilting is on now. */
+  setTilt(isOn: boolean): Promise<boolean>;
+  /** True: walk on the right, turn on the left. */
+  setSwapped(isSwapped: boolean): void;
+  setLanguage(language: Language): void;
+}

@@ -1,0 +1,8 @@
+/** Felt where the phone can; silently nothing where it cannot. Patterns are ms on, off, on. */
+export const kTapPattern = 12;
+export const kLimitPattern = 30;
+export const kRefusalPattern = [25, 60, 25];
+
+export function vibrate(pattern: VibratePattern): void {
+  navigator.vibrate?.(pattern);
+}
