@@ -296,7 +296,7 @@ TEST_F(TreeDynamicsTest, HasTheSameBitsWithAndWithoutAvx2) {
       for (int body = 0; body < tree_.num_bodies(); ++body) {
         add(dynamics.rotation(body));
         add(dynamics.position(body));
-        std::vector<EntryPair> rows(6 * num_pairs(n));
+        std::vector<EntryPair> rows(6 * num_pairs(n), EntryPair::Zero());
         dynamics.calc_body_rows(body, rows.data());
         for (const EntryPair& pair : rows) add(pair);
       }
