@@ -222,7 +222,7 @@ TEST(PolicyExample, WalksTheT1) {
   options.scene = SceneFile::load(data / "scenes" / "empty.yaml");
   options.disturbances = std::make_shared<const sim::DisturbanceSet>(
       sim::DisturbanceSet::load(data / "disturbances" / "default.yaml"));
-  options.motion.walk_policy = "imitated-walk";
+  options.motion.walk_policy = "trained-walk";
   for (const uint64_t seed : {3001, 3002}) {
     ClosedLoop loop(options, seed);
     loop.run(1);

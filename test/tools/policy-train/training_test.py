@@ -18,7 +18,7 @@ sys.path.insert(0, str(ROOT / "tools/policy-train"))
 
 import batch  # noqa: E402
 
-POLICY = ROOT / "data/robots/t1/policies/imitated-walk/policy.yaml"
+POLICY = ROOT / "data/robots/t1/policies/trained-walk/policy.yaml"
 
 try:
     import torch
@@ -31,7 +31,7 @@ class BatchTest(unittest.TestCase):
         with batch.Batch(policy=POLICY, size=3, model="t1", seed=5, command=(0.2, 0, 0)) as robots:
             robots.reset()
             before = robots.observations.copy()
-            np.testing.assert_allclose(before[:, 6:9], [[0.4, 0, 0]] * 3, rtol=1e-6)
+            np.testing.assert_allclose(before[:, 6:9], [[0.2, 0, 0]] * 3, rtol=1e-6)
             robots.actions[1] = 0.5
             for _ in range(10):
                 robots.step()
