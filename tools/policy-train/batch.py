@@ -39,7 +39,7 @@ class Batch:
     def __init__(self, *, policy: str | Path, size: int, **options: Any) -> None:
         """@param policy  A policy.yaml. @param options  Others of the program: model="nao", seed=1, command=(0.3, 0, 0).
         @throws RuntimeError  if the program ends; it says why on stderr."""
-        self._file = tempfile.NamedTemporaryFile(prefix="nao-batch-", dir="/dev/shm")
+        self._file = tempfile.NamedTemporaryFile(prefix="nao-batch-", dir="/dev/shm" if os.path.isdir("/dev/shm") else None)
         command = [str(PROGRAM), "--policy", str(policy), "--memory", self._file.name, "--size", str(size)]
         for name, value in options.items():
             values = value if isinstance(value, (tuple, list)) else (value,)
