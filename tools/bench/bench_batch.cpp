@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <exception>
@@ -21,8 +22,8 @@ namespace nao::policy_train {
 namespace {
 
 constexpr int kNumRobots = 32;
-// Greatest change of a joint's target, rad: some robots step about, none falls soon.
-constexpr double kWave = 0.1;
+// Greatest action: with its scale of 0.25 rad some robots step about, none falls soon.
+constexpr double kWave = 0.4;
 constexpr int kStepsOfRound = 25;
 
 /** A policy of both legs, in the layout of unitree_rl_gym. */
@@ -51,23 +52,19 @@ class Course {
  public:
   Course(const EnvironmentOptions& options, const std::string& engine)
       : batch_(with_engine(options, engine), kNumRobots, 1, 1),
-        actions_(static_cast<size_t>(kNumRobots * options.manifest->num_actions())),
-        observations_(static_cast<size_t>(kNumRobots * options.manifest->num_observations())),
-        privileged_(static_cast<size_t>(kNumRobots * kNumPrivileged)),
-        terms_(static_cast<size_t>(kNumRobots * kNumRewardTerms)),
-        ended_(2 * kNumRobots) {
-    batch_.reset(arrays());
+        rows_(*options.manifest, kNumRobots) {
+    batch_.reset(rows_.arrays());
   }
 
   /** @return Control steps for each second of processor time. */
   double run_round() {
     const double begin = processor_seconds();
     for (int k = 0; k < kStepsOfRound; ++k, ++step_) {
-      for (size_t i = 0; i < actions_.size(); ++i) {
-        actions_[i] =
-            static_cast<float>(4 * kWave * std::sin(0.2 * step_ + 0.7 * static_cast<double>(i)));
+      for (size_t i = 0; i < rows_.actions.size(); ++i) {
+        rows_.actions[i] =
+            static_cast<float>(kWave * std::sin(0.2 * step_ + 0.7 * static_cast<double>(i)));
       }
-      batch_.step(arrays());
+      batch_.step(rows_.arrays());
     }
     return kNumRobots * kStepsOfRound / (processor_seconds() - begin);
   }
@@ -77,21 +74,13 @@ class Course {
     options.engine = engine;
     return options;
   }
-  BatchArrays arrays() {
-    return {actions_.data(), observations_.data(), privileged_.data(),
-            terms_.data(),   ended_.data(),        ended_.data() + kNumRobots};
-  }
 
   BatchSimulation batch_;
-  std::vector<float> actions_;
-  std::vector<float> observations_;
-  std::vector<float> privileged_;
-  std::vector<float> terms_;
-  std::vector<uint8_t> ended_;
+  BatchRows rows_;
   int step_ = 0;
 };
 
-std::vector<Figure> measure(const std::string& model_name, int num_rounds) {
+Figure measure(const std::string& model_name, int num_rounds) {
   EnvironmentOptions options;
   options.model =
       std::make_shared<RobotModel>(RobotModel::load(data_path() / "robots" / model_name));
@@ -100,7 +89,7 @@ std::vector<Figure> measure(const std::string& model_name, int num_rounds) {
   options.disturbances =
       std::make_shared<sim::DisturbanceSet>(sim::DisturbanceSet::find("default"));
   options.scene = SceneFile::find("empty");
-  const auto& engines = sim::engine_names();
+  const std::vector<std::string> engines = sim::engine_names();
   const bool has_mujoco = std::find(engines.begin(), engines.end(), "mujoco") != engines.end();
   Course fast(options, "fast");
   std::unique_ptr<Course> mujoco;
@@ -115,7 +104,7 @@ std::vector<Figure> measure(const std::string& model_name, int num_rounds) {
     figure.baseline = "engine mujoco";
     figure.baseline_value = median(theirs);
   }
-  return {figure};
+  return figure;
 }
 
 }  // namespace
@@ -134,9 +123,7 @@ int main(int argc, char** argv) {
   try {
     std::vector<nao::Figure> figures;
     for (const char* model : {"nao", "t1"}) {
-      for (const nao::Figure& figure : nao::policy_train::measure(model, num_rounds)) {
-        figures.push_back(figure);
-      }
+      figures.push_back(nao::policy_train::measure(model, num_rounds));
     }
     nao::report(figures, json_file);
   } catch (const std::exception& error) {

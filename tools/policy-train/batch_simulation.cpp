@@ -4,6 +4,21 @@
 #include <thread>
 
 namespace nao::policy_train {
+namespace {
+
+size_t count_of(int rows, int columns) {
+  return static_cast<size_t>(rows) * static_cast<size_t>(columns);
+}
+
+}  // namespace
+
+BatchRows::BatchRows(const PolicyManifest& manifest, int size)
+    : actions(count_of(size, manifest.num_actions())),
+      observations(count_of(size, manifest.num_observations())),
+      privileged(count_of(size, kNumPrivileged)),
+      terms(count_of(size, kNumRewardTerms)),
+      terminated(count_of(size, 1)),
+      truncated(count_of(size, 1)) {}
 
 BatchSimulation::BatchSimulation(const EnvironmentOptions& options, int size, int num_threads,
                                  uint64_t seed)

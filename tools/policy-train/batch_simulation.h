@@ -19,6 +19,24 @@ struct BatchArrays {
   uint8_t* truncated = nullptr;
 };
 
+/** The memory of a batch's arrays. */
+class BatchRows {
+ public:
+  BatchRows(const PolicyManifest& manifest, int size);
+
+  BatchArrays arrays() {
+    return {actions.data(), observations.data(), privileged.data(),
+            terms.data(),   terminated.data(),   truncated.data()};
+  }
+
+  std::vector<float> actions;
+  std::vector<float> observations;
+  std::vector<float> privileged;
+  std::vector<float> terms;
+  std::vector<uint8_t> terminated;
+  std::vector<uint8_t> truncated;
+};
+
 /** Environments that are stepped together, on several threads. The result does not depend on the
  * number of threads. */
 class BatchSimulation {
@@ -30,8 +48,8 @@ class BatchSimulation {
   int size() const { return static_cast<int>(environments_.size()); }
   /** Begins an episode in each environment; writes observations and privileged. */
   void reset(const BatchArrays& arrays);
-  /** One step of each environment; whose episode ends begins a new one. Allocates nothing but the
-   * threads with the engine "fast". */
+  /** One step of each environment; whose episode ends begins a new one. Within an episode it
+   * allocates nothing but the threads, with the engine "fast". */
   void step(const BatchArrays& arrays);
 
  private:

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "sim/disturbance_draw.h"
 
@@ -60,7 +61,7 @@ PolicyEnvironment::PolicyEnvironment(const EnvironmentOptions& options, uint64_t
   std::fill(action_.begin(), action_.end(), 0.0F);
   set_targets();
   place();
-  start_ = sample();
+  sample(start_.emplace());
 }
 
 void PolicyEnvironment::reset(const StepOutput& output) {
@@ -75,7 +76,7 @@ void PolicyEnvironment::reset(const StepOutput& output) {
   builder_.reset();
   num_steps_ = 0;
   draw_command();
-  before_ = sample();
+  sample(before_);
   observe(output);
 }
 
@@ -127,13 +128,13 @@ void PolicyEnvironment::step(const float* action, const StepOutput& output) {
     world_->step_tick();
   }
   ++num_steps_;
-  const MotionSample after = sample();
+  sample(after_);
   const bool is_get_up = manifest.kind == PolicyManifest::Kind::kGetUp;
-  const double up = after.torso.linear()(2, 2);
+  const double up = after_.torso.linear()(2, 2);
   const bool fallen = !is_get_up && (up < std::cos(kFallenTilt) ||
-                                     after.torso.translation().z() <
+                                     after_.torso.translation().z() <
                                          kFallenHeight * start_->torso.translation().z());
-  calc_reward_terms(*options_.model, manifest, *start_, before_, after, input_.command,
+  calc_reward_terms(*options_.model, manifest, *start_, before_, after_, input_.command,
                     builder_.phase(), fallen, output.reward_terms);
   *output.terminated = fallen ? 1 : 0;
   *output.truncated = !fallen && num_steps_ >= max_steps_ ? 1 : 0;
@@ -142,7 +143,7 @@ void PolicyEnvironment::step(const float* action, const StepOutput& output) {
     return;
   }
   if (random_.uniform() < manifest.period / options_.command_time) draw_command();
-  before_ = after;
+  std::swap(before_, after_);
   observe(output);
 }
 
@@ -184,16 +185,16 @@ void PolicyEnvironment::maybe_push() {
   world_->push(0, 0, {impulse * std::cos(angle), impulse * std::sin(angle), 0});
 }
 
-MotionSample PolicyEnvironment::sample() const {
+void PolicyEnvironment::sample(MotionSample& sample) const {
   const sim::SimRobot& robot = world_->robot(0);
   const RobotModel& model = *options_.model;
-  MotionSample sample;
   sample.torso = robot.link_pose(0);
   const Eigen::Matrix3d torso_from_world = sample.torso.linear().transpose();
   sample.angular_velocity = torso_from_world * robot.state().velocity.head<3>();
   sample.linear_velocity = torso_from_world * robot.state().velocity.segment<3>(3);
   const std::array<int, 2> soles = {model.left_sole(), model.right_sole()};
   for (size_t foot = 0; foot < 2; ++foot) sample.soles[foot] = robot.link_pose(soles[foot]);
+  sample.load.fill(0);
   for (const sim::Contact& contact : world_->contacts()) {
     for (size_t foot = 0; foot < 2; ++foot) {
       if (contact.a.kind != sim::Surface::Kind::kRobot ||
@@ -208,7 +209,6 @@ MotionSample PolicyEnvironment::sample() const {
   sample.velocity = robot.motor_velocity();
   sample.torque = robot.motor_torque();
   sample.target = targets_.position;
-  return sample;
 }
 
 void PolicyEnvironment::observe(const StepOutput& output) {

@@ -75,7 +75,7 @@ class PolicyEnvironment {
   void draw_command();
   void maybe_push();
   void observe(const StepOutput& output);
-  MotionSample sample() const;
+  void sample(MotionSample& sample) const;
 
   EnvironmentOptions options_;
   Random random_;
@@ -86,7 +86,9 @@ class PolicyEnvironment {
   sim::MotorTargets targets_;
   /** At the default angles; present from the end of the constructor on. */
   std::optional<MotionSample> start_;
+  /** At the begin and the end of a step. */
   MotionSample before_;
+  MotionSample after_;
   int ticks_per_step_ = 1;
   int num_steps_ = 0;
   int max_steps_ = 0;

@@ -10,7 +10,7 @@ namespace nao::gateway {
 /** Keeps the gateway connected with nao-relay: dials again with growing pauses, up to 2 s, and
  * serves the phones that the relay announces. Without the relay, all else goes on.
  *
- * The relay's certificate is not checked: who takes its place can read and change nothing
+ * The relay's certificate is not checked: a program in its place can read and change nothing
  * between phones and gateway (secure_channel.h). */
 class RelayClient {
  public:

@@ -11,11 +11,6 @@
 namespace nao::policy_train {
 namespace {
 
-BatchArrays arrays_of(Rows& rows) {
-  return {rows.actions.data(), rows.observations.data(), rows.privileged.data(),
-          rows.terms.data(),   rows.terminated.data(),   rows.truncated.data()};
-}
-
 EnvironmentOptions disturbed_options() {
   EnvironmentOptions options = options_of(kLegs);
   options.disturbances =
@@ -25,23 +20,23 @@ EnvironmentOptions disturbed_options() {
 }
 
 /** The arrays after some steps with waving legs. */
-Rows run(int num_threads, uint64_t seed, int num_steps) {
+BatchRows run(int num_threads, uint64_t seed, int num_steps) {
   const EnvironmentOptions options = disturbed_options();
   BatchSimulation batch(options, 5, num_threads, seed);
-  Rows rows(options, batch.size());
-  batch.reset(arrays_of(rows));
+  BatchRows rows(*options.manifest, batch.size());
+  batch.reset(rows.arrays());
   for (int k = 0; k < num_steps; ++k) {
     for (size_t i = 0; i < rows.actions.size(); ++i) {
       rows.actions[i] = static_cast<float>(std::sin(0.3 * k + static_cast<double>(i)));
     }
-    batch.step(arrays_of(rows));
+    batch.step(rows.arrays());
   }
   return rows;
 }
 
 TEST(BatchSimulation, GivesTheSameWithAnyNumberOfThreads) {
-  const Rows one = run(1, 7, 100);
-  const Rows three = run(3, 7, 100);
+  const BatchRows one = run(1, 7, 100);
+  const BatchRows three = run(3, 7, 100);
   EXPECT_EQ(one.observations, three.observations);
   EXPECT_EQ(one.privileged, three.privileged);
   EXPECT_EQ(one.terms, three.terms);
@@ -54,10 +49,10 @@ TEST(BatchSimulation, StandsAtTheDefaultAngles) {
   options.command = Eigen::Vector3d::Zero();
   options.episode_time = 5;
   BatchSimulation batch(options, 1, 1, 1);
-  Rows rows(options, 1);
-  batch.reset(arrays_of(rows));
+  BatchRows rows(*options.manifest, 1);
+  batch.reset(rows.arrays());
   for (int k = 0; k < 249; ++k) {
-    batch.step(arrays_of(rows));
+    batch.step(rows.arrays());
     ASSERT_EQ(rows.terminated[0] + rows.truncated[0], 0) << k;
   }
   // Upright, at rest, on both feet.
@@ -65,7 +60,7 @@ TEST(BatchSimulation, StandsAtTheDefaultAngles) {
   EXPECT_NEAR(rows.privileged[0], 0, 0.02);
   EXPECT_NEAR(rows.privileged[7] + rows.privileged[8], 1, 0.05);
   EXPECT_GT(rows.terms[static_cast<size_t>(RewardTerm::kVelocityTracking)], 0.98F);
-  batch.step(arrays_of(rows));
+  batch.step(rows.arrays());
   EXPECT_EQ(rows.truncated[0], 1);
   EXPECT_EQ(rows.terminated[0], 0);
 }
@@ -73,13 +68,13 @@ TEST(BatchSimulation, StandsAtTheDefaultAngles) {
 TEST(BatchSimulation, EndsAnEpisodeWithAFallAndBeginsTheNext) {
   EnvironmentOptions options = options_of(kLegs);
   BatchSimulation batch(options, 1, 1, 1);
-  Rows rows(options, 1);
-  batch.reset(arrays_of(rows));
+  BatchRows rows(*options.manifest, 1);
+  batch.reset(rows.arrays());
   // Ankles bent: the robot tips over.
   rows.actions[3] = rows.actions[7] = 3;
   int k = 0;
   while (k < 250 && rows.terminated[0] == 0) {
-    batch.step(arrays_of(rows));
+    batch.step(rows.arrays());
     ++k;
   }
   ASSERT_EQ(rows.terminated[0], 1);
@@ -95,8 +90,8 @@ TEST(BatchSimulation, LaysARobotDownThatIsToGetUp) {
       replaced(replaced(kLegs, "kind: walk", "kind: get-up"),
                "command: {vx: [-0.2, 0.8], vy: [-0.1, 0.1], wz: [-0.4, 0.4]}", "duration: 8"));
   BatchSimulation batch(options, 8, 1, 1);
-  Rows rows(options, 8);
-  batch.reset(arrays_of(rows));
+  BatchRows rows(*options.manifest, 8);
+  batch.reset(rows.arrays());
   const size_t count = rows.observations.size() / 8;
   bool is_on_belly = false, is_on_back = false;
   for (size_t i = 0; i < 8; ++i) {
@@ -111,10 +106,10 @@ TEST(BatchSimulation, LaysARobotDownThatIsToGetUp) {
 TEST(BatchSimulation, TakesAnActionThatIsNotFiniteForZero) {
   const EnvironmentOptions options = options_of(kLegs);
   BatchSimulation batch(options, 1, 1, 1);
-  Rows rows(options, 1);
-  batch.reset(arrays_of(rows));
+  BatchRows rows(*options.manifest, 1);
+  batch.reset(rows.arrays());
   std::fill(rows.actions.begin(), rows.actions.end(), std::numeric_limits<float>::quiet_NaN());
-  for (int k = 0; k < 50; ++k) batch.step(arrays_of(rows));
+  for (int k = 0; k < 50; ++k) batch.step(rows.arrays());
   EXPECT_EQ(rows.terminated[0], 0);
   EXPECT_TRUE(std::all_of(rows.observations.begin(), rows.observations.end(),
                           [](float value) { return std::isfinite(value); }));

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "test/tools/policy-train/small_policy.h"
+#include "tools/policy-train/batch_simulation.h"
 
 namespace nao::policy_train {
 namespace {
@@ -60,7 +61,7 @@ TEST(PolicyMirror, IsThatOfTheSimulatedRobot) {
     options.command = Eigen::Vector3d(0.1, sign * 0.05, sign * 0.2);
     options.start_spread = 0;
     PolicyEnvironment environment(options, 1);
-    Rows rows(options, 1);
+    BatchRows rows(*options.manifest, 1);
     const StepOutput output{rows.observations.data(), rows.privileged.data(), rows.terms.data(),
                             rows.terminated.data(), rows.truncated.data()};
     environment.reset(output);

@@ -43,22 +43,4 @@ inline EnvironmentOptions options_of(const std::string& manifest) {
   return options;
 }
 
-/** The arrays of some environments. */
-struct Rows {
-  Rows(const EnvironmentOptions& options, int size)
-      : actions(static_cast<size_t>(size * options.manifest->num_actions())),
-        observations(static_cast<size_t>(size * options.manifest->num_observations())),
-        privileged(static_cast<size_t>(size * kNumPrivileged)),
-        terms(static_cast<size_t>(size * kNumRewardTerms)),
-        terminated(static_cast<size_t>(size)),
-        truncated(static_cast<size_t>(size)) {}
-
-  std::vector<float> actions;
-  std::vector<float> observations;
-  std::vector<float> privileged;
-  std::vector<float> terms;
-  std::vector<uint8_t> terminated;
-  std::vector<uint8_t> truncated;
-};
-
 }  // namespace nao::policy_train
