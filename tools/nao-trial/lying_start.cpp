@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/lying_start.h"
+
 namespace nao::trial {
 namespace {
 
@@ -28,16 +30,8 @@ bool knock_over(ClosedLoop& trial, double direction) {
 }
 
 void lay_down(ClosedLoop& trial, double side) {
-  Posture posture = trial.model().ready_posture();
-  for (int motor = 0; motor < trial.model().num_motors(); ++motor) {
-    const Joint& joint = trial.model().motor_joint(motor);
-    const double angle = posture.position[motor] + trial.random(-0.5, 0.5);
-    posture.position[motor] = std::min(std::max(angle, joint.lower), joint.upper);
-  }
-  // Torso horizontal, then rolled about its own long axis to the given side.
-  const Eigen::Quaterniond orientation = Eigen::AngleAxisd(M_PI / 2, Eigen::Vector3d::UnitY()) *
-                                         Eigen::AngleAxisd(side, Eigen::Vector3d::UnitZ());
-  trial.world().place_robot(0, &posture, {0, 0, 0.01}, &orientation);
+  sim::lay_down(trial.world(), 0, side,
+                [&trial](double low, double high) { return trial.random(low, high); });
   // The controller treats a robot that was placed as a new one.
   trial.restart_core();
 }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "sim/disturbance_draw.h"
+#include "sim/lying_start.h"
 
 namespace nao::policy_train {
 namespace {
@@ -14,11 +15,8 @@ namespace {
 // walk comes back from there.
 constexpr double kFallenTilt = 0.9;
 constexpr double kFallenHeight = 0.6;
-// Greatest difference of a lying robot's joints from the ready posture, rad. Chosen.
-constexpr double kLyingSpread = 0.5;
-// Time for which a lying robot comes to rest, s, and the height that it is laid down from, m.
+// Time for which a lying robot comes to rest, s. Chosen.
 constexpr double kLyingTime = 1;
-constexpr double kLyingHeight = 0.01;
 // Share of the commanded velocities that are 0, and of those with a single component. Chosen: a
 // phone's sticks give such ones mostly.
 constexpr double kRestShare = 0.2;
@@ -94,19 +92,9 @@ void PolicyEnvironment::place() {
 }
 
 void PolicyEnvironment::lay_down() {
-  const RobotModel& model = *options_.model;
-  Posture posture = model.ready_posture();
-  for (int motor = 0; motor < model.num_motors(); ++motor) {
-    const Joint& joint = model.motor_joint(motor);
-    double& angle = posture.position[static_cast<size_t>(motor)];
-    angle =
-        std::clamp(angle + random_.uniform(-kLyingSpread, kLyingSpread), joint.lower, joint.upper);
-  }
-  // Horizontal, then turned about its long axis to any side.
-  const Eigen::Quaterniond orientation =
-      Eigen::AngleAxisd(M_PI / 2, Eigen::Vector3d::UnitY()) *
-      Eigen::AngleAxisd(random_.uniform(-M_PI, M_PI), Eigen::Vector3d::UnitZ());
-  world_->place_robot(0, &posture, {0, 0, kLyingHeight}, &orientation);
+  const Posture posture =
+      sim::lay_down(*world_, 0, random_.uniform(-M_PI, M_PI),
+                    [this](double low, double high) { return random_.uniform(low, high); });
   sim::MotorTargets held = targets_;
   held.position =
       Eigen::VectorXd::Map(posture.position.data(), static_cast<long>(posture.position.size()));
