@@ -20,8 +20,8 @@ std::string to_text(const RobotCard& card) {
       "duration x {}, distance of the feet x {}\n",
       settings.peak_error, settings.speed, settings.swing_height, settings.hip_height,
       settings.step_duration, settings.foot_distance);
-  for (const std::string& picture : card.pictures) text += "picture: " + picture + "\n";
-  if (!card.no_pictures.empty()) text += "no pictures: " + card.no_pictures + "\n";
+  for (const std::string& image : card.images) text += "image: " + image + "\n";
+  if (!card.no_images.empty()) text += "no images: " + card.no_images + "\n";
   for (const Finding& finding : card.missing) text += "missing: " + to_line(finding) + "\n";
   return text;
 }
@@ -50,10 +50,10 @@ std::string to_json(const RobotCard& card) {
   json.add("step_duration", card.settings.step_duration);
   json.add("foot_distance", card.settings.foot_distance);
   json.end();
-  json.begin_array("pictures");
-  for (const std::string& picture : card.pictures) json.add("", picture);
+  json.begin_array("images");
+  for (const std::string& image : card.images) json.add("", image);
   json.end();
-  json.add("no_pictures", card.no_pictures);
+  json.add("no_images", card.no_images);
   json.begin_array("missing");
   for (const Finding& finding : card.missing) json.add("", to_line(finding));
   json.end();

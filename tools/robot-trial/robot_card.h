@@ -28,9 +28,9 @@ struct RobotCard {
   int walks = 0;
   /** Why it did not stand or walk; empty: it did. */
   std::string failure;
-  /** Pictures of its postures, from its folder; or why there are none. */
-  std::vector<std::string> pictures;
-  std::string no_pictures;
+  /** Images of its postures, from its folder; or why there are none. */
+  std::vector<std::string> images;
+  std::string no_images;
   /** Findings of check_robot(). */
   Findings missing;
 };

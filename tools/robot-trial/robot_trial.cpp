@@ -20,7 +20,7 @@
 #include "robot_model/scene_file.h"
 #include "tools/nao-trial/scenarios.h"
 #include "tools/nao-trial/walk_scenarios.h"
-#include "tools/robot-trial/posture_pictures.h"
+#include "tools/robot-trial/posture_images.h"
 #include "tools/walk-tuner/tune_gait.h"
 
 namespace nao {
@@ -319,11 +319,11 @@ RobotCard try_robot(const std::filesystem::path& folder, double minutes, double 
   if (!trial.has_gait()) card.failure = "walk: it has no gait, see what is missing";
   trial.measure(card);
   try {
-    for (const std::string& name : draw_postures(model, folder / "pictures")) {
-      card.pictures.push_back("pictures/" + name);
+    for (const std::string& name : draw_postures(model, folder / "images")) {
+      card.images.push_back("images/" + name);
     }
   } catch (const Error& error) {
-    card.no_pictures = error.what();
+    card.no_images = error.what();
   }
   replace_file(folder / "card.json", to_json(card));
   return card;

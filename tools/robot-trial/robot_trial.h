@@ -9,7 +9,7 @@
 namespace nao {
 
 /** Simulates an imported robot, writes the settings that it stands and walks with into its folder,
- * its card as card.json, and pictures of its postures.
+ * its card as card.json, and images of its postures.
  * @param minutes       Time of the search for settings on two free cores; the last one may end
  *                      later.
  * @param tune_minutes  Time of the search for a better gait that follows; 0: none.

@@ -34,12 +34,12 @@ TEST(RobotTrial, WritesSettingsThatHoldAndACard) {
   (void)motion::Gait::load(robot / "gait.yaml");
   EXPECT_EQ(read_text(robot / "card.json"), to_json(card));
   // Without OpenGL the card says so.
-  EXPECT_NE(card.pictures.empty(), card.no_pictures.empty());
-  for (const std::string& picture : card.pictures) {
-    const Image image = read_png(robot / picture);
-    // The robot is in the middle of the picture, the sky at its top.
+  EXPECT_NE(card.images.empty(), card.no_images.empty());
+  for (const std::string& name : card.images) {
+    const Image image = read_png(robot / name);
+    // The robot is in the middle of the image, the sky at its top.
     const auto [darkest, brightest] = std::minmax_element(image.rgb.begin(), image.rgb.end());
-    EXPECT_GT(*brightest - *darkest, 50) << picture;
+    EXPECT_GT(*brightest - *darkest, 50) << name;
   }
   EXPECT_THAT(to_text(card), testing::HasSubstr("walks " + std::to_string(card.walks) + " of 5"));
 }

@@ -1,4 +1,4 @@
-#include "tools/robot-trial/posture_pictures.h"
+#include "tools/robot-trial/posture_images.h"
 
 #include <Eigen/Geometry>
 #include <cmath>
