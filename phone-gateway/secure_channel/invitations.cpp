@@ -1,9 +1,14 @@
 #include "phone-gateway/secure_channel/invitations.h"
 
+#include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
+#include <cstring>
 #include <nlohmann/json.hpp>
 
 #include "common/data_path.h"
@@ -18,6 +23,23 @@
 
 namespace nao {
 namespace {
+
+/** Waits until no other program has the folder locked; ends with the object. */
+class FolderLock {
+ public:
+  explicit FolderLock(const std::filesystem::path& folder)
+      : descriptor_(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+    if (descriptor_ < 0 || flock(descriptor_, LOCK_EX) != 0) {
+      throw Error("cannot lock the folder " + folder.string() + ": " + std::strerror(errno));
+    }
+  }
+  ~FolderLock() { close(descriptor_); }
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+
+ private:
+  int descriptor_;
+};
 
 /** That of nao-relay. */
 constexpr const char* kDefaultPort = "8443";
@@ -104,17 +126,27 @@ std::string write_relay_access(const RelayAccess& access) {
 }
 
 RelayAccess load_relay_access(const std::filesystem::path& file) {
-  if (std::filesystem::exists(file)) return parse_relay_access(read_file(file), file.string());
-  RelayAccess access;
-  access.key = to_hex(random_bytes(kRobotKeyBytes));
-  save_relay_access(file, access);
-  return access;
+  return change_relay_access(file, [](RelayAccess&) {});
 }
 
-void save_relay_access(const std::filesystem::path& file, const RelayAccess& access) {
+RelayAccess change_relay_access(const std::filesystem::path& file,
+                                const std::function<void(RelayAccess&)>& change) {
+  const std::filesystem::path folder = std::filesystem::absolute(file).parent_path();
   std::error_code error;
-  if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path(), error);
-  replace_file(file, write_relay_access(access), S_IRUSR | S_IWUSR);
+  std::filesystem::create_directories(folder, error);
+  const FolderLock lock(folder);
+  RelayAccess access;
+  std::string old_text;
+  if (std::filesystem::exists(file)) {
+    old_text = read_file(file);
+    access = parse_relay_access(old_text, file.string());
+  } else {
+    access.key = to_hex(random_bytes(kRobotKeyBytes));
+  }
+  change(access);
+  const std::string text = write_relay_access(access);
+  if (text != old_text) replace_file(file, text, S_IRUSR | S_IWUSR);
+  return access;
 }
 
 std::filesystem::path default_relay_file() {

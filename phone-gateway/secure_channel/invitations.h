@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -45,8 +46,10 @@ std::string write_relay_access(const RelayAccess& access);
 /** Reads the file; one that does not exist is created with a new key, readable by its owner only.
  * @throws ConfigError, Error */
 RelayAccess load_relay_access(const std::filesystem::path& file);
-/** @throws Error  The file cannot be written. */
-void save_relay_access(const std::filesystem::path& file, const RelayAccess& access);
+/** Loads, changes and saves the file while other programs that do so wait.
+ * @param change  What it throws leaves the file as it was. @throws ConfigError, Error */
+RelayAccess change_relay_access(const std::filesystem::path& file,
+                                const std::function<void(RelayAccess&)>& change);
 /** relay.json in the folder of files that programs keep. */
 std::filesystem::path default_relay_file();
 

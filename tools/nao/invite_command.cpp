@@ -59,33 +59,41 @@ void print(const Invitation& invitation) {
               role_name(invitation.role).c_str(), local_time(invitation.until).c_str());
 }
 
-int list(const RelayAccess& access) {
+int list(RelayAccess access) {
+  std::erase_if(access.invitations, [now = unix_seconds()](const Invitation& invitation) {
+    return invitation.until <= now;
+  });
   for (const Invitation& invitation : access.invitations) print(invitation);
   if (access.invitations.empty()) std::puts("There is no invitation.");
   return 0;
 }
 
-int revoke(RelayAccess access, const std::string& file, const std::string& id) {
-  const size_t count = std::erase_if(access.invitations, [&](const Invitation& invitation) {
-    return id == "all" || to_hex(invitation.id) == id;
+int revoke(const std::string& file, const std::string& id) {
+  size_t count = 0;
+  change_relay_access(file, [&](RelayAccess& access) {
+    count = std::erase_if(access.invitations, [&](const Invitation& invitation) {
+      return invitation.until > unix_seconds() && (id == "all" || to_hex(invitation.id) == id);
+    });
+    if (count == 0 && id != "all") {
+      throw Error("there is no invitation " + id + ": see nao invite --list");
+    }
   });
-  if (count == 0 && id != "all") {
-    throw Error("there is no invitation " + id + ": see nao invite --list");
-  }
-  save_relay_access(file, access);
   std::printf("%zu withdrawn; their phones are disconnected within a second.\n", count);
   return 0;
 }
 
-int invite(RelayAccess access, const std::string& file, const InviteOptions& options) {
-  if (access.relay.empty()) {
-    throw Error("no relay is known: start the robot with scripts/start --relay HOST first");
-  }
+int invite(const std::string& file, const InviteOptions& options) {
+  const double now = unix_seconds();
   const Invitation invitation =
-      make_invitation(role_of_name(options.role), unix_seconds() + parse_time(options.time));
-  access.invitations.push_back(invitation);
+      make_invitation(role_of_name(options.role), now + parse_time(options.time));
+  const RelayAccess access = change_relay_access(file, [&](RelayAccess& changed) {
+    if (changed.relay.empty()) {
+      throw Error("no relay is known: start the robot with scripts/start --relay HOST first");
+    }
+    std::erase_if(changed.invitations, [&](const Invitation& old) { return old.until <= now; });
+    changed.invitations.push_back(invitation);
+  });
   const std::string link = invitation_link(access, invitation);
-  save_relay_access(file, access);
   std::printf("%s%s\n", gateway::draw_on_terminal(gateway::make_qr_code(link)).c_str(),
               link.c_str());
   print(invitation);
@@ -94,13 +102,9 @@ int invite(RelayAccess access, const std::string& file, const InviteOptions& opt
 
 int execute(const InviteOptions& options) {
   const std::string file = options.file.empty() ? default_relay_file().string() : options.file;
-  RelayAccess access = load_relay_access(file);
-  std::erase_if(access.invitations, [now = unix_seconds()](const Invitation& invitation) {
-    return invitation.until <= now;
-  });
-  if (options.lists) return list(access);
-  if (!options.revoked.empty()) return revoke(std::move(access), file, options.revoked);
-  return invite(std::move(access), file, options);
+  if (options.lists) return list(load_relay_access(file));
+  if (!options.revoked.empty()) return revoke(file, options.revoked);
+  return invite(file, options);
 }
 
 }  // namespace

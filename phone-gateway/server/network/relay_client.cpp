@@ -44,14 +44,11 @@ struct RelayClient::Impl : std::enable_shared_from_this<RelayClient::Impl> {
       : context(new_context),
         address(parse_relay_address(new_address)),
         file(new_file),
-        access(load_relay_access(new_file)),
+        access(change_relay_access(
+            new_file, [&](RelayAccess& changed_access) { changed_access.relay = new_address; })),
         tls(asio::ssl::context::tls_client),
         resolver(new_context.io),
         pause(new_context.io) {
-    if (access.relay != new_address) {
-      access.relay = new_address;
-      save_relay_access(file, access);
-    }
     changed = std::filesystem::last_write_time(file);
   }
 

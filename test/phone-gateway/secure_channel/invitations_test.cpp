@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <thread>
+#include <vector>
+
 #include "common/error.h"
 #include "phone-gateway/secure_channel/hexadecimal.h"
 #include "phone-gateway/secure_channel/relay_target.h"
@@ -49,6 +52,35 @@ TEST(Invitations, TheFileIsForItsOwnerOnly) {
   struct stat status {};
   ASSERT_EQ(stat(file.c_str(), &status), 0);
   EXPECT_EQ(status.st_mode & 0777, 0600u);
+}
+
+TEST(Invitations, ChangesAtOneTimeAreAllKept) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "relay.json";
+  const auto invite = [&file] {
+    for (int i = 0; i < 5; ++i) {
+      change_relay_access(file, [](RelayAccess& access) {
+        access.invitations.push_back(make_invitation(Invitation::Role::kDrive, 1e10));
+      });
+    }
+  };
+  std::vector<std::thread> programs;
+  for (int i = 0; i < 8; ++i) programs.emplace_back(invite);
+  for (std::thread& program : programs) program.join();
+  EXPECT_EQ(load_relay_access(file).invitations.size(), 40u);
+}
+
+TEST(Invitations, AChangeThatFailsLeavesTheFile) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "relay.json";
+  const std::string key = load_relay_access(file).key;
+  EXPECT_THROW(change_relay_access(file,
+                                   [](RelayAccess& access) {
+                                     access.key = kKey;
+                                     throw Error("refused");
+                                   }),
+               Error);
+  EXPECT_EQ(load_relay_access(file).key, key);
 }
 
 TEST(Invitations, TheLinkKeepsTheSecretFromTheRelay) {
