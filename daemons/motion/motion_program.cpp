@@ -25,8 +25,7 @@ int nao::motion::run_motion(int argc, char** argv) {
   nao::motion::MotionOptions options;
   nao::add_model_option(app, model_name);
   app.add_option("--default-speed", options.default_speed,
-                 "Speed of the robot's own motions, fraction of the maximum")
-      ->show_default();
+                 "Speed of the robot's own motions, fraction of the maximum");
   app.add_option("--walk-policy", options.walk_policy,
                  "Policy that walks instead of the gait, a folder in policies/ of the robot");
   app.add_option("--calibration", calibration_file,

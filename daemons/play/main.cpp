@@ -22,7 +22,7 @@ int main(int argc, char** argv) {
   std::string model_name = "nao";
   std::vector<double> start_pose = {0, 0, 0};
   nao::add_model_option(app, model_name);
-  app.add_option("--scene", options.scene, "Scene with the field's dimensions")->show_default();
+  app.add_option("--scene", options.scene, "Scene with the field's dimensions");
   app.add_option(
          "--start-pose", start_pose,
          "X,Y,HEADING: pose of the robot on the field when nao-motion starts, used until "

@@ -24,14 +24,12 @@ int nao::speaker::run_speaker(int argc, char** argv) {
   nao::add_model_option(app, model_name);
   app.add_option("--output", output,
                  "Sound on this host: none, alsa, alsa:DEVICE, or auto: ALSA's default device if "
-                 "there is one")
-      ->show_default();
+                 "there is one");
   app.add_option("--language", options.language, "Language of texts that state none, such as de")
       ->check([](const std::string& tag) {
         return nao::find_speech_language(tag).empty() ? "'" + tag + "' cannot be spoken"
                                                       : std::string();
-      })
-      ->show_default();
+      });
   return nao::run_program(app, common, argc, argv, [&] {
     options.robot = common.robot;
     options.language = nao::find_speech_language(options.language);

@@ -116,9 +116,7 @@ int main(int argc, char** argv) {
   std::string json_file;
   int num_rounds = 9;
   app.add_option("--json", json_file, "Write the figures to this file too");
-  app.add_option("--rounds", num_rounds, "Rounds of half a second of simulated time")
-      ->positive()
-      ->show_default();
+  app.add_option("--rounds", num_rounds, "Rounds of half a second of simulated time")->positive();
   if (const auto status = app.parse(argc, argv)) return *status;
   try {
     std::vector<nao::Figure> figures;

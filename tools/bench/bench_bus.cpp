@@ -298,9 +298,9 @@ int main(int argc, char** argv) {
   std::string url = "udpm://239.255.76.67:7699?ttl=0";
   std::string json_file;
   int num_rounds = 2000;
-  app.add_option("--lcm-url", url, "Bus without other traffic")->show_default();
+  app.add_option("--lcm-url", url, "Bus without other traffic");
   app.add_option("--json", json_file, "File for the figures as JSON");
-  app.add_option("--rounds", num_rounds, "Messages to send")->positive()->show_default();
+  app.add_option("--rounds", num_rounds, "Messages to send")->positive();
   if (const auto status = app.parse(argc, argv)) return *status;
   try {
     nao::report(nao::measure(url, num_rounds), json_file);

@@ -260,7 +260,7 @@ int main(int argc, char** argv) {
   std::string json_file;
   int num_rounds = 100;
   app.add_option("--json", json_file, "File for the figures as JSON");
-  app.add_option("--rounds", num_rounds, "Images of each kind")->range(5, 100000)->show_default();
+  app.add_option("--rounds", num_rounds, "Images of each kind")->range(5, 100000);
   if (const auto status = app.parse(argc, argv)) return *status;
   try {
     nao::report(run(num_rounds), json_file);

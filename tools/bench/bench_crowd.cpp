@@ -374,9 +374,7 @@ int main(int argc, char** argv) {
   std::string json_file;
   double time = 10;
   app.add_option("--json", json_file, "File for the figures as JSON");
-  app.add_option("--time", time, "How long each measurement takes, s")
-      ->range(2.0, 3600.0)
-      ->show_default();
+  app.add_option("--time", time, "How long each measurement takes, s")->range(2.0, 3600.0);
   if (const auto status = app.parse(argc, argv)) return *status;
   nao::logger::set_up("nao-bench-crowd", "warning");
   // Phones are machines of their own: what they see must not wait for the processor of this one.

@@ -193,11 +193,8 @@ int main(int argc, char** argv) {
   bool prints_topics = false;
   app.add_option("--json", json_file, "File for the figures as JSON");
   app.add_option("--rounds", num_rounds, "Pairs of measurements; the medians count")
-      ->range(1, 1000)
-      ->show_default();
-  app.add_option("--time", time, "Duration of each measurement, s")
-      ->range(1.0, 3600.0)
-      ->show_default();
+      ->range(1, 1000);
+  app.add_option("--time", time, "Duration of each measurement, s")->range(1.0, 3600.0);
   app.add_flag("--topics", prints_topics, "Also print the rate of every channel");
   if (const auto status = app.parse(argc, argv)) return *status;
   try {

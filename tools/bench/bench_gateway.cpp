@@ -34,12 +34,9 @@ int main(int argc, char** argv) {
   int num_rounds = 40;
   double time = 10;
   app.add_option("--json", json_file, "File for the figures as JSON");
-  app.add_option("--rounds", num_rounds, "Commands to time on each path")
-      ->range(2, 10000)
-      ->show_default();
+  app.add_option("--rounds", num_rounds, "Commands to time on each path")->range(2, 10000);
   app.add_option("--time", time, "How long clients watch in each measurement, s")
-      ->range(2.0, 3600.0)
-      ->show_default();
+      ->range(2.0, 3600.0);
   if (const auto status = app.parse(argc, argv)) return *status;
   nao::logger::set_up("nao-bench-gateway", "warning");
   // Phones are machines of their own: what they see must not wait for the processor of this one.

@@ -93,15 +93,12 @@ int main(int argc, char** argv) {
   int seed = 1;
   app.add_option("--json", json_file, "File for the figures as JSON");
   app.add_option("--link", only, "Only these links; may be repeated")->one_of(names);
-  app.add_option("--time", time, "How long the phone drives over each link, s")
-      ->range(1.0, 3600.0)
-      ->show_default();
+  app.add_option("--time", time, "How long the phone drives over each link, s")->range(1.0, 3600.0);
   std::string congestion = "cubic";
   bool has_second = true;
-  app.add_option("--tcp-congestion", congestion, "Of the gateway; the phone has cubic")
-      ->show_default();
+  app.add_option("--tcp-congestion", congestion, "Of the gateway; the phone has cubic");
   app.add_flag("!--one-connection", has_second, "The phone opens no second connection");
-  app.add_option("--seed", seed, "Of the links' losses")->not_negative()->show_default();
+  app.add_option("--seed", seed, "Of the links' losses")->not_negative();
   if (const auto status = app.parse(argc, argv)) return *status;
   nao::logger::set_up("nao-bench-links", "warning");
   // The link and the phone are machines of their own: they must not wait for this one's processor.

@@ -63,7 +63,7 @@ int main(int argc, char** argv) {
   std::string json_file;
   double seconds = 20;
   app.add_option("--json", json_file, "Write the figures to this file too");
-  app.add_option("--seconds", seconds, "Simulated time of each measurement, s")->show_default();
+  app.add_option("--seconds", seconds, "Simulated time of each measurement, s");
   if (const auto status = app.parse(argc, argv)) return *status;
   try {
     nao::report(nao::measure(seconds), json_file);

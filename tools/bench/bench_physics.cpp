@@ -397,8 +397,7 @@ int main(int argc, char** argv) {
   int rounds = 40;
   app.add_option("--json", json_file, "File for the figures");
   app.add_option("--rounds", rounds, "Repetitions of each simulator in each scenario")
-      ->range(3, 1000)
-      ->show_default();
+      ->range(3, 1000);
   if (const auto status = app.parse(argc, argv)) return *status;
   try {
     nao::measure(rounds, json_file);

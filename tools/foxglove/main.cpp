@@ -42,24 +42,18 @@ struct Options {
 };
 
 void add_options(CommandLine& app, Options& options) {
-  app.add_option("--bind", options.network.bind, "Address to listen on; 0.0.0.0: all, also of IPv6")
-      ->show_default();
-  app.add_option("--port", options.network.port, "Port of WebSockets and HTTP; 0: any free")
-      ->show_default();
+  app.add_option("--bind", options.network.bind,
+                 "Address to listen on; 0.0.0.0: all, also of IPv6");
+  app.add_option("--port", options.network.port, "Port of WebSockets and HTTP; 0: any free");
   add_model_option(app, options.model);
   app.add_option("--camera-width", options.camera_width,
-                 "Width of the images that are requested while a client watches them, pixels")
-      ->show_default();
+                 "Width of the images that are requested while a client watches them, pixels");
   app.add_option("--camera-rate", options.camera_rate, "Images a second that are requested")
-      ->range(1.0, 30.0)
-      ->show_default();
-  app.add_option("--max-clients", options.max_clients, "Clients at once")
-      ->range(1, 100)
-      ->show_default();
+      ->range(1.0, 30.0);
+  app.add_option("--max-clients", options.max_clients, "Clients at once")->range(1, 100);
   app.add_option("--max-queued-mb", options.max_queued_mb,
                  "Messages that may wait for one client, MB; a slow client gets the newest")
-      ->range(1, 1000)
-      ->show_default();
+      ->range(1, 1000);
   app.add_flag("--allow-commands", options.allow_commands,
                "Clients may publish commands: any of them can then move the robot");
   app.add_option("--allow-origin", options.network.origins,

@@ -134,14 +134,13 @@ int calibrate(const CommonOptions& common, const CalibrateOptions& options) {
 void add_calibrate_command(CommandLine& app, Invocation& invocation) {
   const auto options = std::make_shared<CalibrateOptions>();
   CommandLine* command = app.add_subcommand(kCalibrateSubcommand.name, kCalibrateSubcommand.help);
-  command->add_option("--output", options->file, "File to write")->show_default();
+  command->add_option("--output", options->file, "File to write");
   add_model_option(*command, options->model);
   command
       ->add_option("--directions", options->num_stations,
                    "Directions in which it stands; with 1 it does not walk, and takes a slope of "
                    "the floor for an error of its own")
-      ->range(1, 8)
-      ->show_default();
+      ->range(1, 8);
   command->on_parsed([&invocation, options] {
     invocation.run = [&invocation, options] { return calibrate(invocation.common, *options); };
   });

@@ -188,10 +188,9 @@ void add_log_command(CommandLine& app, Invocation& invocation) {
   log->require_subcommand();
   const auto options = std::make_shared<LogOptions>();
   const auto add_channels = [&](CommandLine* command) {
-    command
-        ->add_option("--channels", options->channels,
-                     "Only channels whose whole name matches this (extended) regular expression")
-        ->show_default();
+    command->add_option(
+        "--channels", options->channels,
+        "Only channels whose whole name matches this (extended) regular expression");
   };
   const auto add_output = [&](CommandLine* command) {
     command->add_option("--output", options->output, "File to write (default: stdout)");

@@ -67,8 +67,7 @@ void add_robot_files_command(CommandLine& app, Invocation& invocation) {
   importer->add_option("urdf", options->urdf, "The URDF; of xacro its output")->required();
   importer->add_option("--name", options->name, "Name of the robot's folder")->required();
   importer->add_option("--tune", options->tune_minutes, "Then search a better gait, minutes")
-      ->not_negative()
-      ->show_default();
+      ->not_negative();
   importer->add_flag("!--no-simulation", options->is_simulated, "Do not simulate it");
   importer->on_parsed([&invocation, options] {
     invocation.run = [options] {

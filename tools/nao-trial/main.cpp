@@ -101,50 +101,38 @@ int main(int argc, char** argv) {
 #endif
   for (const auto& scenario : scenarios()) {
     nao::CommandLine* command = app.add_subcommand(scenario->name(), scenario->summary());
-    command->add_option("--seeds", seeds, "First and last seed, one run each")->show_default();
+    command->add_option("--seeds", seeds, "First and last seed, one run each");
     command->add_option("--json", json_file, "Write the summary to this file too");
     command->add_option("--plot", plot_file, "Draw the results to this SVG file (push-course)");
     nao::add_model_option(*command, model_name);
-    command
-        ->add_option("--duration", options.duration,
-                     "Duration of a run, s (0: the scenario's default)")
-        ->show_default();
+    command->add_option("--duration", options.duration,
+                        "Duration of a run, s (0: the scenario's default)");
     command->add_option("--vx", options.velocity.x(), "Commanded velocity ahead, m/s");
     command->add_option("--vy", options.velocity.y(), "To the left, m/s");
     command->add_option("--wz", options.velocity.z(), "Turning to the left, rad/s");
-    command->add_option("--teams", teams, "match: robots of the two teams, 1 to 5 each")
-        ->show_default();
-    command->add_option("--distance", options.distance, "Distance, m (0: the scenario's default)")
-        ->show_default();
-    command
-        ->add_option("--late", options.trial.missed_tick_probability,
-                     "Probability in each tick that motion misses it and up to three more")
-        ->show_default();
+    command->add_option("--teams", teams, "match: robots of the two teams, 1 to 5 each");
+    command->add_option("--distance", options.distance, "Distance, m (0: the scenario's default)");
+    command->add_option("--late", options.trial.missed_tick_probability,
+                        "Probability in each tick that motion misses it and up to three more");
     command
         ->add_option(
             "--latency", options.trial.command_latency_ticks,
             "Control ticks from a joint command to the motors (0: as the disturbances say)")
-        ->range(0, 10)
-        ->show_default();
+        ->range(0, 10);
     command->add_option(
         "--trace", options.trace_file,
         "walk, score, keep-goal, match: write what was true and what was known in the last seed "
         "to this file, CSV");
-    command
-        ->add_option("--engine", options.trial.engine,
-                     "Physics engine: fast, simbody, or mujoco where it was built")
-        ->show_default();
-    command
-        ->add_option(
-            "--disturbances", disturbances,
-            "Disturbances to draw for each seed: none, default, moderate, real, or entries of "
-            "real such as backlash,floor_slope")
-        ->show_default();
+    command->add_option("--engine", options.trial.engine,
+                        "Physics engine: fast, simbody, or mujoco where it was built");
+    command->add_option(
+        "--disturbances", disturbances,
+        "Disturbances to draw for each seed: none, default, moderate, real, or entries of "
+        "real such as backlash,floor_slope");
     command
         ->add_option("--calibrate", options.num_calibration_directions,
                      "Calibrate each robot before its run, standing in so many directions (0: not)")
-        ->range(0, 8)
-        ->show_default();
+        ->range(0, 8);
     command->add_option(
         "--policy", options.trial.motion.walk_policy,
         "Policy that walks instead of the gait, a folder in policies/ of the robot");

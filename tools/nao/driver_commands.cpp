@@ -97,7 +97,7 @@ void add_driver_commands(CommandLine& app, Invocation& invocation) {
       "driver", "List and change who drives from a phone (on the gateway's host)");
   driver->require_subcommand();
   const auto options = std::make_shared<DriverOptions>();
-  driver->add_option("--port", options->port, "TCP port of the gateway")->show_default();
+  driver->add_option("--port", options->port, "TCP port of the gateway");
 
   CommandLine* listing =
       driver->add_subcommand("list", "List the connected clients and the current driver");

@@ -55,8 +55,7 @@ void add_move_to(CommandLine& app, Invocation& invocation) {
   CommandLine* move_to = app.add_subcommand("move-to", "Walk to a pose in the robot's frame");
   move_to->add_option("x", command->x, "Ahead, m")->required()->check(fault_unless_finite);
   move_to->add_option("y", command->y, "To the left, m")->required()->check(fault_unless_finite);
-  move_to->add_option("theta", *theta, "Final heading, counterclockwise, rad, or such as 90deg")
-      ->show_default();
+  move_to->add_option("theta", *theta, "Final heading, counterclockwise, rad, or such as 90deg");
   add_wait_options(*move_to, *wait);
   move_to->on_parsed([&invocation, command, theta, wait] {
     try {
@@ -78,8 +77,7 @@ void add_posture(CommandLine& app, Invocation& invocation) {
   CommandLine* posture = app.add_subcommand("posture", "Go to a posture: Stand, Crouch, Sit ...");
   posture->add_option("name", command->posture, "Name as in robots/nao/postures.yaml")->required();
   posture->add_option("--speed", command->speed, "Fraction of the maximum speed, above 0 up to 1")
-      ->check(fault_unless_finite)
-      ->show_default();
+      ->check(fault_unless_finite);
   add_wait_options(*posture, *wait);
   posture->on_parsed([&invocation, command, wait] {
     invocation.run = [&invocation, command, wait] {
@@ -101,8 +99,7 @@ void add_joint(CommandLine& app, Invocation& invocation) {
       ->add_option("joints", *arguments, "Pairs of a joint and +, - or = with an angle, rad or deg")
       ->required();
   joint->add_option("--speed", command->speed, "Fraction of the maximum speed, above 0 up to 1")
-      ->check(fault_unless_finite)
-      ->show_default();
+      ->check(fault_unless_finite);
   joint->add_flag("--allow-tipping", *allow_tipping, "Execute it even if the robot tips over");
   add_wait_options(*joint, *wait);
   joint->on_parsed([&invocation, command, allow_tipping, arguments, wait] {

@@ -34,9 +34,8 @@ void add_say(CommandLine& app, Invocation& invocation) {
   say->add_option("text", options->words, "Text, at most 1000 bytes");
   say->add_option("--language", options->command.language,
                   "Language, such as de (default: nao-speaker's)");
-  say->add_option("--volume", options->command.volume, "Loudness, 0 to 1")->show_default();
-  say->add_option("--rate", options->command.rate, "Speed relative to normal, 0.5 to 2")
-      ->show_default();
+  say->add_option("--volume", options->command.volume, "Loudness, 0 to 1");
+  say->add_option("--rate", options->command.rate, "Speed relative to normal, 0.5 to 2");
   say->add_flag("--after", options->follows,
                 "Speak it after what is being said, instead of replacing that");
   say->add_flag("--stop", options->stops, "End what is being said, and what waits");
