@@ -5,17 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <exception>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "common/command_line.h"
 #include "common/data_path.h"
 #include "sim/engine.h"
 #include "tools/bench/cpu_time.h"
-#include "tools/bench/figures.h"
+#include "tools/bench/run_benchmark.h"
 #include "tools/policy-train/batch_simulation.h"
 
 namespace nao::policy_train {
@@ -113,20 +110,13 @@ Figure measure(const std::string& model_name, int num_rounds) {
 int main(int argc, char** argv) {
   nao::CommandLine app("Measures the simulation of many robots for the training of policies.",
                        "nao-bench-batch");
-  std::string json_file;
   int num_rounds = 9;
-  app.add_option("--json", json_file, "Write the figures to this file too");
   app.add_option("--rounds", num_rounds, "Rounds of half a second of simulated time")->positive();
-  if (const auto status = app.parse(argc, argv)) return *status;
-  try {
+  return nao::run_benchmark(app, argc, argv, [&] {
     std::vector<nao::Figure> figures;
     for (const char* model : {"nao", "t1"}) {
       figures.push_back(nao::policy_train::measure(model, num_rounds));
     }
-    nao::report(figures, json_file);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "nao-bench-batch: %s\n", error.what());
-    return 1;
-  }
-  return 0;
+    return figures;
+  });
 }

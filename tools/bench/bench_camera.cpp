@@ -4,6 +4,8 @@
 
 #include <sys/resource.h>
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <ctime>
 #include <functional>
@@ -13,10 +15,8 @@
 
 #include "common/bus.h"
 #include "common/channels.h"
-#include "common/command_line.h"
 #include "common/data_path.h"
 #include "common/event_loop.h"
-#include "common/logger.h"
 #include "common/wall_clock.h"
 #include "daemons/head-camera/half_size.h"
 #include "daemons/head-camera/head_camera.h"
@@ -26,7 +26,7 @@
 #include "rendering/decode_state.h"
 #include "rendering/gl.h"
 #include "robot_model/robot_model.h"
-#include "tools/bench/figures.h"
+#include "tools/bench/run_benchmark.h"
 
 namespace {
 
@@ -201,7 +201,7 @@ std::vector<Figure> run(int num_rounds) {
         HeadCameraOptions options;
         options.shadow_size = shadow_size;
         HeadCamera camera(model, options);
-        if (block == 0 && shadow_size > 0) nao::logger::info("drawing with {}", camera.driver());
+        if (block == 0 && shadow_size > 0) fmt::print("drawing with {}\n", camera.driver());
         for (int i = 0; i < 3; ++i) take_and_encode(camera, world, encoder);
         // The baseline compresses the same images, so that this work is the same.
         const CameraFrame frame = camera.frame();
@@ -257,16 +257,7 @@ std::vector<Figure> run(int num_rounds) {
 int main(int argc, char** argv) {
   nao::CommandLine app("Measures the head camera; times are processor time of one process",
                        "nao-bench-camera");
-  std::string json_file;
   int num_rounds = 100;
-  app.add_option("--json", json_file, "File for the figures as JSON");
   app.add_option("--rounds", num_rounds, "Images of each kind")->range(5, 100000);
-  if (const auto status = app.parse(argc, argv)) return *status;
-  try {
-    nao::report(run(num_rounds), json_file);
-  } catch (const std::exception& error) {
-    nao::logger::error("{}", error.what());
-    return 1;
-  }
-  return 0;
+  return nao::run_benchmark(app, argc, argv, [&] { return run(num_rounds); });
 }

@@ -1,18 +1,15 @@
 // Measures the motion core: CPU time of one step while standing and while walking, and the
 // real-time factor of simulator and motion core on one CPU core.
 
-#include <cstdio>
-#include <exception>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "common/command_line.h"
 #include "common/data_path.h"
 #include "robot_model/robot_model.h"
 #include "sim/closed_loop/closed_loop.h"
 #include "tools/bench/cpu_time.h"
-#include "tools/bench/figures.h"
+#include "tools/bench/run_benchmark.h"
 
 namespace nao {
 namespace {
@@ -60,16 +57,7 @@ int main(int argc, char** argv) {
   nao::CommandLine app(
       "Measures the motion core's step, and simulator and core together on one core.",
       "nao-bench-motion");
-  std::string json_file;
   double seconds = 20;
-  app.add_option("--json", json_file, "Write the figures to this file too");
   app.add_option("--seconds", seconds, "Simulated time of each measurement, s");
-  if (const auto status = app.parse(argc, argv)) return *status;
-  try {
-    nao::report(nao::measure(seconds), json_file);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "nao-bench-motion: %s\n", error.what());
-    return 1;
-  }
-  return 0;
+  return nao::run_benchmark(app, argc, argv, [&] { return nao::measure(seconds); });
 }

@@ -6,19 +6,17 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <exception>
 #include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "common/command_line.h"
 #include "common/wall_clock.h"
 #include "robot_model/robot_model.h"
 #include "sim/world.h"
 #include "tools/bench/cpu_time.h"
-#include "tools/bench/figures.h"
 #include "tools/bench/physics_scenarios.h"
+#include "tools/bench/run_benchmark.h"
 #ifdef NAO_HAS_MUJOCO
 #include "sim/mujoco_baseline.h"
 #endif
@@ -339,7 +337,7 @@ void measure_threads(std::vector<Figure>& figures) {
   figures.push_back({"physics.threads_2_speedup", one / two, "x", "one thread", 1});
 }
 
-void measure(int rounds, const std::string& json_file) {
+std::vector<Figure> measure(int rounds) {
   std::vector<Figure> figures;
   PhysicsScenario standing;
   standing.name = "standing";
@@ -384,7 +382,7 @@ void measure(int rounds, const std::string& json_file) {
                        1e3 * common_error<MujocoPhysics>(*scenario, ticks)});
 #endif
   }
-  report(figures, json_file);
+  return figures;
 }
 
 }  // namespace
@@ -393,17 +391,8 @@ void measure(int rounds, const std::string& json_file) {
 int main(int argc, char** argv) {
   nao::CommandLine app("Measures the physics. Baseline, if installed: MuJoCo.",
                        "nao-bench-physics");
-  std::string json_file;
   int rounds = 40;
-  app.add_option("--json", json_file, "File for the figures");
   app.add_option("--rounds", rounds, "Repetitions of each simulator in each scenario")
       ->range(3, 1000);
-  if (const auto status = app.parse(argc, argv)) return *status;
-  try {
-    nao::measure(rounds, json_file);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "nao-bench-physics: %s\n", error.what());
-    return 1;
-  }
-  return 0;
+  return nao::run_benchmark(app, argc, argv, [&] { return nao::measure(rounds); });
 }
