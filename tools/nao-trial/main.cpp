@@ -10,11 +10,8 @@
 #include "common/output_file.h"
 #include "common/program.h"
 #include "sim/closed_loop/calibrate.h"
-#include "tools/nao-trial/scenario.h"
+#include "tools/nao-trial/scenarios.h"
 #include "tools/nao-trial/statistics.h"
-#ifdef NAO_TRIAL_HAS_VISION
-#include "tools/nao-trial/vision_scenarios.h"
-#endif
 
 namespace nao::trial {
 namespace {
@@ -47,8 +44,8 @@ void print(const RunResult& run, uint64_t seed) {
 Summary run_all(const Scenario& scenario, const ScenarioOptions& options,
                 const std::vector<uint64_t>& seeds, bool is_verbose) {
   Summary summary;
-  summary.scenario = scenario.name();
-  summary.units = scenario.units();
+  summary.scenario = scenario.name;
+  summary.units = scenario.units;
   for (uint64_t seed : seeds) {
     ScenarioOptions robot = options;
     // Each robot is calibrated under its own disturbances before its run.
@@ -95,12 +92,13 @@ int main(int argc, char** argv) {
   std::string teams = "2v2";
   std::string disturbances = "default";
   ScenarioOptions options;
-  std::string chosen;
+  const Scenario* chosen = nullptr;
+  std::vector<Scenario> all = scenarios();
 #ifdef NAO_TRIAL_HAS_VISION
-  add_vision_scenarios();
+  for (const Scenario& scenario : vision_scenarios()) all.push_back(scenario);
 #endif
-  for (const auto& scenario : scenarios()) {
-    nao::CommandLine* command = app.add_subcommand(scenario->name(), scenario->summary());
+  for (const Scenario& scenario : all) {
+    nao::CommandLine* command = app.add_subcommand(scenario.name, scenario.summary);
     command->add_option("--seeds", seeds, "First and last seed, one run each");
     command->add_option("--json", json_file, "Write the summary to this file too");
     command->add_option("--plot", plot_file, "Draw the results to this SVG file (push-course)");
@@ -139,31 +137,27 @@ int main(int argc, char** argv) {
     command->add_flag("--ideal", options.trial.is_ideal,
                       "No noise or latency either: --disturbances none");
     command->add_flag("--verbose", is_verbose, "Print a line for each run");
-    command->on_parsed([&chosen, &scenario] { chosen = scenario->name(); });
+    command->on_parsed([&chosen, &scenario] { chosen = &scenario; });
   }
   return nao::run_program(app, common, argc, argv, [&] {
-    for (const auto& scenario : scenarios()) {
-      // Scenarios and their subcommands have the same names.
-      if (chosen != scenario->name()) continue;
-      options.trial.model = std::make_shared<nao::RobotModel>(
-          nao::RobotModel::load(nao::data_path() / "robots" / model_name));
-      if (options.trial.is_ideal) disturbances = "none";
-      options.trial.disturbances =
-          std::make_shared<nao::sim::DisturbanceSet>(nao::sim::DisturbanceSet::find(disturbances));
-      options.trial.scene = nao::SceneFile::find(scenario->scene());
-      options.team_sizes = parse_teams(teams);
-      options.is_for_plot = !plot_file.empty();
-      Summary summary = run_all(*scenario, options, parse_seeds(seeds), is_verbose);
-      summary.engine = options.trial.engine;
-      summary.disturbances = disturbances;
-      summary.model = model_name;
-      std::fputs(to_table(summary).c_str(), stdout);
-      if (!json_file.empty()) nao::replace_file(json_file, to_json(summary));
-      if (!plot_file.empty()) {
-        const std::string plot = scenario->plot(summary);
-        if (plot.empty()) throw nao::Error(chosen + " has no plot; omit --plot");
-        nao::replace_file(plot_file, plot);
-      }
+    const Scenario& scenario = *chosen;
+    options.trial.model = std::make_shared<nao::RobotModel>(
+        nao::RobotModel::load(nao::data_path() / "robots" / model_name));
+    if (options.trial.is_ideal) disturbances = "none";
+    options.trial.disturbances =
+        std::make_shared<nao::sim::DisturbanceSet>(nao::sim::DisturbanceSet::find(disturbances));
+    options.trial.scene = nao::SceneFile::find(scenario.scene);
+    options.team_sizes = parse_teams(teams);
+    options.is_for_plot = !plot_file.empty();
+    Summary summary = run_all(scenario, options, parse_seeds(seeds), is_verbose);
+    summary.engine = options.trial.engine;
+    summary.disturbances = disturbances;
+    summary.model = model_name;
+    std::fputs(to_table(summary).c_str(), stdout);
+    if (!json_file.empty()) nao::replace_file(json_file, to_json(summary));
+    if (!plot_file.empty()) {
+      if (!scenario.plot) throw nao::Error(scenario.name + " has no plot; omit --plot");
+      nao::replace_file(plot_file, scenario.plot(summary));
     }
   });
 }
