@@ -141,9 +141,7 @@ void add_calibrate_command(CommandLine& app, Invocation& invocation) {
                    "Directions in which it stands; with 1 it does not walk, and takes a slope of "
                    "the floor for an error of its own")
       ->range(1, 8);
-  command->on_parsed([&invocation, options] {
-    invocation.run = [&invocation, options] { return calibrate(invocation.common, *options); };
-  });
+  invocation.on(*command, [options](const auto& common) { return calibrate(common, *options); });
 }
 
 }  // namespace nao

@@ -172,11 +172,9 @@ CommandLine* add_log_subcommand(CommandLine& log, Invocation& invocation,
                                 const std::string& description, int (*run)(const LogOptions&)) {
   CommandLine* command = log.add_subcommand(name, description);
   command->add_option("file", options->file, "Log of scripts/record")->required();
-  command->on_parsed([&invocation, options, run] {
-    invocation.run = [&invocation, options, run] {
-      options->robot = invocation.common.robot;
-      return run(*options);
-    };
+  invocation.on(*command, [options, run](const auto& common) {
+    options->robot = common.robot;
+    return run(*options);
   });
   return command;
 }

@@ -99,11 +99,9 @@ void add_policy_command(CommandLine& app, Invocation& invocation) {
   check->add_option("file", options->file, "Its policy.yaml, or the folder of it")->required();
   check->add_option("--model", options->model,
                     "Robot; default: the one in whose folder the file lies");
-  check->on_parsed([&invocation, options] {
-    invocation.run = [options] {
-      check_policy(options->file, options->model);
-      return 0;
-    };
+  invocation.on(*check, [options](const auto& /*common*/) {
+    check_policy(options->file, options->model);
+    return 0;
   });
 }
 

@@ -128,9 +128,7 @@ void add_record_command(CommandLine& app, Invocation& invocation) {
                    "Keep only this many files, FILE.0 being the newest")
       ->positive()
       ->needs(split);
-  record->on_parsed([&invocation, options] {
-    invocation.run = [&invocation, options] { return run_record(invocation.common, *options); };
-  });
+  invocation.on(*record, [options](const auto& common) { return run_record(common, *options); });
 }
 
 }  // namespace nao

@@ -172,9 +172,7 @@ void add_self_test_command(CommandLine& app, Invocation& invocation) {
   const auto model = std::make_shared<std::string>("nao");
   CommandLine* command = app.add_subcommand(kSelfTestSubcommand.name, kSelfTestSubcommand.help);
   add_model_option(*command, *model);
-  command->on_parsed([&invocation, model] {
-    invocation.run = [&invocation, model] { return run_self_test(invocation.common, *model); };
-  });
+  invocation.on(*command, [model](const auto& common) { return run_self_test(common, *model); });
 }
 
 }  // namespace nao

@@ -292,11 +292,8 @@ void add_bus_command(CommandLine& app, Invocation& invocation) {
       "--own", check->own_channels,
       "Channels that a system is about to publish, such as NAO_SENSOR_STATE: nobody may "
       "publish on them yet (repeatable)");
-  bus->on_parsed([&invocation, check] {
-    invocation.run = [&invocation, check] {
-      return run_bus_check(invocation.common.lcm_url, *check);
-    };
-  });
+  invocation.on(*bus,
+                [check](const auto& common) { return run_bus_check(common.lcm_url, *check); });
 }
 
 }  // namespace nao

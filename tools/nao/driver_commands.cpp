@@ -102,17 +102,14 @@ void add_driver_commands(CommandLine& app, Invocation& invocation) {
   CommandLine* listing =
       driver->add_subcommand("list", "List the connected clients and the current driver");
   listing->add_flag("--json", options->as_json, "As JSON");
-  listing->on_parsed(
-      [&invocation, options] { invocation.run = [options] { return list(*options); }; });
+  invocation.on(*listing, [options](const auto& /*common*/) { return list(*options); });
 
   const auto add = [&](const std::string& name, const std::string& description,
                        Operate::Operation operation) {
     CommandLine* subcommand = driver->add_subcommand(name, description);
-    subcommand->on_parsed([&invocation, options, operation, name] {
-      invocation.run = [options, operation, name] {
-        Response response;
-        return run_operation(*options, operation, name, response);
-      };
+    invocation.on(*subcommand, [options, operation, name](const auto& /*common*/) {
+      Response response;
+      return run_operation(*options, operation, name, response);
     });
     return subcommand;
   };

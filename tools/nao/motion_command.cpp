@@ -140,9 +140,7 @@ void add_motion_command(CommandLine& app, Invocation& invocation) {
   const auto add = [&](const std::string& name, const std::string& help,
                        std::function<int(const CommonOptions&)> run) {
     CommandLine* subcommand = motion->add_subcommand(name, help);
-    subcommand->on_parsed([&invocation, run = std::move(run)] {
-      invocation.run = [&invocation, run] { return run(invocation.common); };
-    });
+    invocation.on(*subcommand, std::move(run));
     return subcommand;
   };
   const auto add_file = [&options](CommandLine* subcommand) {

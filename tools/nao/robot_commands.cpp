@@ -40,11 +40,9 @@ void add_walk(CommandLine& app, Invocation& invocation) {
       ->check(fault_unless_finite);
   walk->add_option("--for", *duration, "Duration of the walk before the robot stands, s")
       ->positive();
-  walk->on_parsed([&invocation, command, duration] {
-    invocation.run = [&invocation, command, duration] {
-      return Conversation(invocation.common, "walk", "nao-motion", CommandExchange::kWalkTiming)
-          .run_walk(*command, *duration);
-    };
+  invocation.on(*walk, [command, duration](const auto& common) {
+    return Conversation(common, "walk", "nao-motion", CommandExchange::kWalkTiming)
+        .run_walk(*command, *duration);
   });
 }
 
@@ -79,11 +77,9 @@ void add_posture(CommandLine& app, Invocation& invocation) {
   posture->add_option("--speed", command->speed, "Fraction of the maximum speed, above 0 up to 1")
       ->check(fault_unless_finite);
   add_wait_options(*posture, *wait);
-  posture->on_parsed([&invocation, command, wait] {
-    invocation.run = [&invocation, command, wait] {
-      Conversation conversation(invocation.common, "posture " + command->posture);
-      return conversation.run_command(conversation.channels().posture_command, *command, *wait);
-    };
+  invocation.on(*posture, [command, wait](const auto& common) {
+    Conversation conversation(common, "posture " + command->posture);
+    return conversation.run_command(conversation.channels().posture_command, *command, *wait);
   });
 }
 
@@ -154,12 +150,10 @@ void add_stop(CommandLine& app, Invocation& invocation) {
   auto wait = std::make_shared<WaitOptions>();
   CommandLine* stop = app.add_subcommand("stop", "End any motion");
   add_wait_options(*stop, *wait);
-  stop->on_parsed([&invocation, wait] {
-    invocation.run = [&invocation, wait] {
-      Conversation conversation(invocation.common, "stop");
-      return conversation.run_command(conversation.channels().stop_command,
-                                      naolcm::stop_command_t(), *wait);
-    };
+  invocation.on(*stop, [wait](const auto& common) {
+    Conversation conversation(common, "stop");
+    return conversation.run_command(conversation.channels().stop_command, naolcm::stop_command_t(),
+                                    *wait);
   });
 }
 

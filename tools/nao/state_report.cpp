@@ -159,10 +159,8 @@ void add_state_command(CommandLine& app, Invocation& invocation) {
       app.add_subcommand("state", "Show the robot's motion state and joint angles");
   state->add_flag("--json", *as_json, "One line of JSON, fields as in the messages");
   state->add_flag("--watch", *watches, "Repeat five times a second until Ctrl-C");
-  state->on_parsed([&invocation, as_json, watches] {
-    invocation.run = [&invocation, as_json, watches] {
-      return run_state(invocation.common, *as_json, *watches);
-    };
+  invocation.on(*state, [as_json, watches](const auto& common) {
+    return run_state(common, *as_json, *watches);
   });
 }
 

@@ -233,10 +233,8 @@ void add_status_command(CommandLine& app, Invocation& invocation) {
   status->add_flag("--this-host", *is_this_host_only,
                    "With --wait: only programs of this host count");
   status->add_option("--timeout", *timeout, "Longest wait, s")->positive();
-  status->on_parsed([&invocation, wanted, is_this_host_only, timeout, as_json] {
-    invocation.run = [&invocation, wanted, is_this_host_only, timeout, as_json] {
-      return run_status(invocation.common, *wanted, *is_this_host_only, *timeout, *as_json);
-    };
+  invocation.on(*status, [wanted, is_this_host_only, timeout, as_json](const auto& common) {
+    return run_status(common, *wanted, *is_this_host_only, *timeout, *as_json);
   });
 }
 

@@ -116,9 +116,7 @@ void add_show_command(CommandLine& world, Invocation& invocation) {
   auto as_json = std::make_shared<bool>(false);
   CommandLine* show = world.add_subcommand("show", "Show the true state of the simulated world");
   show->add_flag("--json", *as_json, "One line of JSON, fields as in world_truth_t");
-  show->on_parsed([&invocation, as_json] {
-    invocation.run = [&invocation, as_json] { return run_show(invocation.common, *as_json); };
-  });
+  invocation.on(*show, [as_json](const auto& common) { return run_show(common, *as_json); });
 }
 
 }  // namespace nao

@@ -188,9 +188,8 @@ void add_watchdog_command(CommandLine& app, Invocation& invocation) {
                    "The stack's programs, one name for each process: the watchdog is ready when "
                    "all have published their status")
       ->separated_by(',');
-  watchdog->on_parsed([&invocation, programs] {
-    invocation.run = [&invocation, programs] { return run_watchdog(invocation.common, *programs); };
-  });
+  invocation.on(*watchdog,
+                [programs](const auto& common) { return run_watchdog(common, *programs); });
 }
 
 }  // namespace nao
