@@ -1,7 +1,5 @@
 #include "daemons/motion/motion_program.h"
 
-#include <algorithm>
-#include <cctype>
 #include <string>
 
 #include "common/bus.h"

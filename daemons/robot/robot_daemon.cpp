@@ -6,7 +6,6 @@
 #include <cerrno>
 #include <cmath>
 #include <cstring>
-#include <string_view>
 #include <utility>
 
 #include "common/error.h"

@@ -9,7 +9,6 @@
 
 #include <array>
 #include <csignal>
-#include <cstring>
 #include <string>
 #include <vector>
 

@@ -2,7 +2,6 @@
 // real-time factor of simulator and motion core on one CPU core.
 
 #include <memory>
-#include <string>
 #include <vector>
 
 #include "common/data_path.h"

@@ -1,6 +1,5 @@
 // nao-foxglove: serves the bus to Foxglove and Lichtblick. See README.md.
 
-#include <algorithm>
 #include <naolcm/camera_command_t.hpp>
 #include <set>
 #include <span>

@@ -1,7 +1,6 @@
 #include "tools/foxglove/protocol.h"
 
 #include <algorithm>
-#include <iterator>
 #include <limits>
 #include <nlohmann/json.hpp>
 

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <cstdio>
 #include <ctime>
-#include <limits>
 #include <memory>
 #include <naolcm/sensor_state_t.hpp>
 #include <optional>
@@ -13,7 +12,6 @@
 #include "common/bus.h"
 #include "common/command_line.h"
 #include "common/data_path.h"
-#include "common/error.h"
 #include "common/output_file.h"
 #include "common/program.h"
 #include "common/wall_clock.h"

@@ -2,7 +2,6 @@
 #include <cstdio>
 #include <limits>
 #include <memory>
-#include <string>
 
 #include "common/bus.h"
 #include "common/command_line.h"

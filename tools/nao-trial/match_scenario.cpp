@@ -1,7 +1,6 @@
 #include "tools/nao-trial/scenarios.h"
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 #include <map>
 #include <memory>

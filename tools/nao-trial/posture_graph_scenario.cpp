@@ -1,8 +1,5 @@
 #include <fmt/core.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "common/constants.h"
 #include "tools/nao-trial/scenarios.h"
 

@@ -6,7 +6,6 @@
 #include <sstream>
 
 #include "common/constants.h"
-#include "common/error.h"
 #include "common/output_file.h"
 #include "kinematics/pose2.h"
 #include "tools/nao-trial/fall_warning.h"

@@ -1,7 +1,6 @@
 // nao play: behaviors, which nao-play executes.
 #include "messages/play_command.h"
 
-#include <cstdio>
 #include <memory>
 #include <string>
 #include <vector>

@@ -9,7 +9,6 @@
 #include <naolcm/stop_command_t.hpp>
 #include <naolcm/walk_command_t.hpp>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "common/command_line.h"
