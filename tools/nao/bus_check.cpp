@@ -25,6 +25,7 @@
 #include "common/channels.h"
 #include "common/command_line.h"
 #include "common/error.h"
+#include "common/joined.h"
 #include "common/local_multicast.h"
 #include "common/program.h"
 #include "common/wall_clock.h"
@@ -150,18 +151,12 @@ void report_buffer() {
                           "net.core.rmem_max=2097152");
 }
 
-std::string join(const std::vector<std::string>& words) {
-  std::string list;
-  for (const std::string& word : words) list += (list.empty() ? "" : ", ") + word;
-  return list;
-}
-
 /** @return false if two systems share the bus. */
 bool report_owners(const ChannelOwners& owners) {
   const std::vector<std::string> shared = owners.find_shared();
   for (const std::string& channel : shared) {
     std::printf("FAIL  two systems share this bus: two programs publish on %s: %s\n",
-                channel.c_str(), join(owners.owners_of(channel)).c_str());
+                channel.c_str(), joined(owners.owners_of(channel)).c_str());
   }
   if (!shared.empty()) std::printf("      fix it: %s\n", kSeparateSystems);
   return shared.empty();
@@ -188,7 +183,7 @@ bool check_silence(BusListener& listener, const std::vector<std::string>& channe
   for (const std::string& channel : channels) {
     if (!is_taken(channel)) continue;
     std::printf("FAIL  another system publishes on %s already: %s\n", channel.c_str(),
-                join(owners.owners_of(channel)).c_str());
+                joined(owners.owners_of(channel)).c_str());
   }
   std::printf("      fix it: end it, or %s\n", kSeparateSystems);
   return false;

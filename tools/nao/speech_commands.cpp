@@ -4,6 +4,7 @@
 
 #include "common/command_line.h"
 #include "common/error.h"
+#include "common/joined.h"
 #include "messages/light_command.h"
 #include "messages/speech_command.h"
 #include "tools/nao/color_argument.h"
@@ -14,12 +15,6 @@ namespace nao {
 namespace {
 
 using Operation = SpeechCommand::Operation;
-
-std::string join_words(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : " ") + word;
-  return text;
-}
 
 void add_say(CommandLine& app, Invocation& invocation) {
   struct Options {
@@ -44,7 +39,7 @@ void add_say(CommandLine& app, Invocation& invocation) {
     if (options->words.empty() != options->stops) {
       throw UsageError("text", "give either a text or --stop");
     }
-    options->command.text = join_words(options->words);
+    options->command.text = joined(options->words, {}, " ");
     options->command.operation = options->stops     ? Operation::kStop
                                  : options->follows ? Operation::kSayAfter
                                                     : Operation::kSay;
