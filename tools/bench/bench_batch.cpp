@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "common/data_path.h"
+#include "common/processor_time.h"
 #include "sim/engine.h"
-#include "tools/bench/cpu_time.h"
 #include "tools/bench/run_benchmark.h"
 #include "tools/policy-train/batch_simulation.h"
 
@@ -55,7 +55,7 @@ class Course {
 
   /** @return Control steps for each second of processor time. */
   double run_round() {
-    const double begin = processor_seconds();
+    const double begin = thread_seconds();
     for (int k = 0; k < kStepsOfRound; ++k, ++step_) {
       for (size_t i = 0; i < rows_.actions.size(); ++i) {
         rows_.actions[i] =
@@ -63,7 +63,7 @@ class Course {
       }
       batch_.step(rows_.arrays());
     }
-    return kNumRobots * kStepsOfRound / (processor_seconds() - begin);
+    return kNumRobots * kStepsOfRound / (thread_seconds() - begin);
   }
 
  private:

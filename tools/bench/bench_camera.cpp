@@ -2,12 +2,10 @@
 // that every renderer needs: clear, read back, resize, compress. Both run alternately, so that
 // other load on the machine affects both.
 
+#include <fmt/core.h>
 #include <sys/resource.h>
 
-#include <fmt/core.h>
-
 #include <algorithm>
-#include <ctime>
 #include <functional>
 #include <map>
 #include <naolcm/image_t.hpp>
@@ -17,6 +15,7 @@
 #include "common/channels.h"
 #include "common/data_path.h"
 #include "common/event_loop.h"
+#include "common/processor_time.h"
 #include "common/wall_clock.h"
 #include "daemons/head-camera/half_size.h"
 #include "daemons/head-camera/head_camera.h"
@@ -42,20 +41,13 @@ const char* const kCamera = "top";
 constexpr int kQuality = 80;
 constexpr int kMostBytes = 64000;
 
-/** Time of the processor that this process has used in all its threads, s. */
-double processor_seconds() {
-  timespec time{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
-
 /** Times of named stages, one entry a round, ms of processor time. */
 class Stages {
  public:
   void measure(const std::string& name, const std::function<void()>& work) {
-    const double start = processor_seconds();
+    const double start = nao::process_seconds();
     work();
-    add(name, 1e3 * (processor_seconds() - start));
+    add(name, 1e3 * (nao::process_seconds() - start));
   }
   void add(const std::string& name, double time_ms) { times_ms_[name].push_back(time_ms); }
   double median_ms(const std::string& name) const { return nao::median(times_ms_.at(name)); }
@@ -148,9 +140,9 @@ double daemon_percent(const nao::RobotModel& model, double seconds) {
     }
   };
   turns(3);
-  const double start = processor_seconds();
+  const double start = nao::process_seconds();
   turns(static_cast<int>(10 * seconds));
-  return 100 * (processor_seconds() - start) / seconds;
+  return 100 * (nao::process_seconds() - start) / seconds;
 }
 
 /** Ages of the images when they are published, s: time since their state was published. States (100

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "common/data_path.h"
+#include "common/processor_time.h"
 #include "robot_model/robot_model.h"
 #include "sim/closed_loop/closed_loop.h"
-#include "tools/bench/cpu_time.h"
 #include "tools/bench/run_benchmark.h"
 
 namespace nao {
@@ -24,7 +24,7 @@ ClosedLoopOptions trial_options() {
 double step_us(const Eigen::Vector3d& velocity, double seconds) {
   ClosedLoop trial(trial_options(), 1);
   std::vector<double> times;
-  trial.measure_steps(processor_seconds, times);
+  trial.measure_steps(thread_seconds, times);
   trial.run(1);
   if (!velocity.isZero()) {
     trial.hold_walk(velocity);
@@ -38,9 +38,9 @@ double step_us(const Eigen::Vector3d& velocity, double seconds) {
 double real_time_factor(double seconds) {
   ClosedLoop trial(trial_options(), 1);
   trial.run(1);
-  const double begin = processor_seconds();
+  const double begin = thread_seconds();
   trial.run(seconds);
-  return seconds / (processor_seconds() - begin);
+  return seconds / (thread_seconds() - begin);
 }
 
 std::vector<Figure> measure(double seconds) {
