@@ -47,7 +47,7 @@ class Calibrator {
       : model_(model), run_(model, num_stations), session_(common, "nao-calibrate") {
     session_.bus().subscribe<naolcm::sensor_state_t>(
         session_.channels().sensor_state, Bus::Queue::kAll,
-        [this](const naolcm::sensor_state_t& message) { measure(message); });
+        [this](const auto& message) { measure(message); });
   }
 
   /** @return Why not all poses were measured: Ctrl-C, silence or repeated faults; empty: they were.

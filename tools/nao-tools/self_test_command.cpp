@@ -38,13 +38,11 @@ class SelfTester {
       : model_(model), test_(model), session_(common, "nao-self-test") {
     const RobotChannels& channels = session_.channels();
     session_.bus().subscribe<naolcm::sensor_state_t>(
-        channels.sensor_state, Bus::Queue::kAll,
-        [this](const naolcm::sensor_state_t& message) { measure(message); });
+        channels.sensor_state, Bus::Queue::kAll, [this](const auto& message) { measure(message); });
     session_.bus().subscribe<naolcm::body_state_t>(
-        channels.body_state, Bus::Queue::kAll,
-        [this](const naolcm::body_state_t& message) { measure(message); });
+        channels.body_state, Bus::Queue::kAll, [this](const auto& message) { measure(message); });
     session_.bus().subscribe<naolcm::image_t>(channels.head_camera_image, Bus::Queue::kAll,
-                                              [this](const naolcm::image_t& image) {
+                                              [this](const auto& image) {
                                                 // Other receivers' images of other sizes say
                                                 // nothing more.
                                                 if (image.width != kImageWidth) return;

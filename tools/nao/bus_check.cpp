@@ -99,10 +99,9 @@ std::string interface_with(const in_addr& address) {
 std::optional<double> echo_time(Bus& bus) {
   const int64_t own_id = wall_utime();
   bool has_arrived = false;
-  bus.subscribe<naolcm::daemon_status_t>(
-      kEchoChannel, Bus::Queue::kAll, [&](const naolcm::daemon_status_t& status) {
-        has_arrived |= status.wall_utime == own_id && status.process_id == getpid();
-      });
+  bus.subscribe<naolcm::daemon_status_t>(kEchoChannel, Bus::Queue::kAll, [&](const auto& status) {
+    has_arrived |= status.wall_utime == own_id && status.process_id == getpid();
+  });
   naolcm::daemon_status_t status{};
   status.wall_utime = own_id;
   status.program = "nao-bus";
@@ -125,7 +124,7 @@ std::map<std::string, HostReport> listen_for_hosts(Bus& bus, BusListener& listen
                                                    ChannelOwners& owners) {
   std::map<std::string, HostReport> hosts;
   bus.subscribe<naolcm::daemon_status_t>(
-      kDaemonStatusChannel, Bus::Queue::kAll, [&hosts](const naolcm::daemon_status_t& status) {
+      kDaemonStatusChannel, Bus::Queue::kAll, [&hosts](const auto& status) {
         HostReport& host = hosts[status.host];
         host.processes[status.program].insert(status.process_id);
         const double difference = static_cast<double>(wall_utime() - status.wall_utime) * 1e-6;

@@ -49,7 +49,7 @@ int show(const CommonOptions& common) {
   Bus bus(common.lcm_url);
   std::string text;
   bus.subscribe<naolcm::match_state_t>(kMatchStateChannel, Bus::Queue::kLatest,
-                                       [&](const naolcm::match_state_t& message) {
+                                       [&](const auto& message) {
                                          text = to_text(to_match_state(message));
                                          loop.stop("answer");
                                        });

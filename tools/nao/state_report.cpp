@@ -116,12 +116,10 @@ int run_state(const CommonOptions& common, bool as_json, bool watches) {
   Bus bus(common.lcm_url);
   const RobotChannels channels(common.robot);
   RobotReport report;
-  bus.subscribe<naolcm::robot_state_t>(
-      channels.robot_state, Bus::Queue::kLatest,
-      [&report](const naolcm::robot_state_t& state) { report.robot = state; });
-  bus.subscribe<naolcm::motion_state_t>(
-      channels.motion_state, Bus::Queue::kLatest,
-      [&report](const naolcm::motion_state_t& state) { report.motion = state; });
+  bus.subscribe<naolcm::robot_state_t>(channels.robot_state, Bus::Queue::kLatest,
+                                       [&report](const auto& state) { report.robot = state; });
+  bus.subscribe<naolcm::motion_state_t>(channels.motion_state, Bus::Queue::kLatest,
+                                        [&report](const auto& state) { report.motion = state; });
   double last_complete = monotonic_seconds();
   bool is_silent = false;
   loop.on_readable(bus.descriptor(), [&bus] { bus.handle(); });

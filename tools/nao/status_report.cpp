@@ -47,13 +47,12 @@ class StatusListener {
  public:
   explicit StatusListener(const CommonOptions& common)
       : bus_(common.lcm_url), robot_(common.robot) {
-    bus_.subscribe<naolcm::body_state_t>(
-        RobotChannels(robot_).body_state, Bus::Queue::kLatest,
-        [this](const naolcm::body_state_t& body) { body_ = body; });
+    bus_.subscribe<naolcm::body_state_t>(RobotChannels(robot_).body_state, Bus::Queue::kLatest,
+                                         [this](const auto& body) { body_ = body; });
     std::array<char, 256> host{};
     if (gethostname(host.data(), host.size() - 1) == 0) host_ = host.data();
     bus_.subscribe<naolcm::daemon_status_t>(
-        kDaemonStatusChannel, Bus::Queue::kAll, [this](const naolcm::daemon_status_t& status) {
+        kDaemonStatusChannel, Bus::Queue::kAll, [this](const auto& status) {
           const auto [entry, is_new] =
               programs_.try_emplace({status.program, status.host, status.process_id});
           entry->second.status = status;

@@ -96,9 +96,8 @@ std::string to_json(const naolcm::world_truth_t& truth) {
 int run_show(const CommonOptions& common, bool as_json) {
   Bus bus(common.lcm_url);
   std::optional<naolcm::world_truth_t> truth;
-  bus.subscribe<naolcm::world_truth_t>(
-      kWorldTruthChannel, Bus::Queue::kLatest,
-      [&truth](const naolcm::world_truth_t& message) { truth = message; });
+  bus.subscribe<naolcm::world_truth_t>(kWorldTruthChannel, Bus::Queue::kLatest,
+                                       [&truth](const auto& message) { truth = message; });
   const double start = monotonic_seconds();
   while (!truth && monotonic_seconds() - start < kListenTimeout) bus.handle_for(0.1);
   if (!truth) {

@@ -130,7 +130,7 @@ int run_watchdog(const CommonOptions& common, const std::vector<std::string>& pr
   SharedBusWatch shared_bus(loop, common.lcm_url);
   bool is_ready = false;
   bus.subscribe<naolcm::daemon_status_t>(
-      kDaemonStatusChannel, Bus::Queue::kAll, [&](const naolcm::daemon_status_t& status) {
+      kDaemonStatusChannel, Bus::Queue::kAll, [&](const auto& status) {
         if (status.host != host.data()) return;
         if (status.process_id == getpid()) {
           detector.handle_own_heartbeat(monotonic_seconds());

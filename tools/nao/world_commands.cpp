@@ -18,7 +18,7 @@ namespace {
 int run_world(const CommonOptions& common, const naolcm::world_command_t& command) {
   Conversation conversation(common, "world " + command.command, "nao-sim");
   conversation.bus().subscribe<naolcm::world_truth_t>(
-      kWorldTruthChannel, Bus::Queue::kLatest, [&conversation](const naolcm::world_truth_t& truth) {
+      kWorldTruthChannel, Bus::Queue::kLatest, [&conversation](const auto& truth) {
         if (truth.last_command_source != conversation.source() ||
             truth.last_command_id != conversation.command_id()) {
           return;
