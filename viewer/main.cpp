@@ -8,7 +8,6 @@
 #include "backends/imgui_impl_glfw.h"
 #include "common/bus.h"
 #include "common/command_line.h"
-#include "common/data_path.h"
 #include "common/event_loop.h"
 #include "common/logger.h"
 #include "common/program.h"
@@ -141,7 +140,7 @@ int run(int argc, char** argv) {
     EventLoop loop;
     std::optional<Bus> bus;
     if (options.log_file.empty()) bus.emplace(common.lcm_url);
-    const auto model = RobotModel::load(data_path() / "robots" / options.model);
+    const auto model = RobotModel::find(options.model);
     nao::logger::info("version {}, {}, robot {} from {}", version(),
                       bus ? "bus " + common.lcm_url : "log " + options.log_file, options.robot,
                       model.folder().string());

@@ -4,7 +4,6 @@
 
 #include "common/bus.h"
 #include "common/command_line.h"
-#include "common/data_path.h"
 #include "common/event_loop.h"
 #include "common/logger.h"
 #include "common/program.h"
@@ -31,7 +30,7 @@ int nao::motion::run_motion(int argc, char** argv) {
   app.add_flag("!--no-get-up", options.gets_up, "After a fall, remain lying until a command");
   return nao::run_program(app, common, argc, argv, [&] {
     // Errors of the model end the program here, before it answers on any channel.
-    const nao::RobotModel model = nao::RobotModel::load(nao::data_path() / "robots" / model_name);
+    const nao::RobotModel model = nao::RobotModel::find(model_name);
     if (nao::request_realtime_scheduling(nao::RealtimePriority::kControl))
       nao::logger::info("real-time scheduling granted");
     if (!calibration_file.empty()) {

@@ -13,7 +13,6 @@
 
 #include "common/bus.h"
 #include "common/channels.h"
-#include "common/data_path.h"
 #include "common/error.h"
 #include "common/event_loop.h"
 #include "common/logger.h"
@@ -66,7 +65,7 @@ std::vector<MatchPlayer> players_of(const std::vector<RobotOption>& robots) {
 std::map<std::string, std::string> ready_postures_of(const std::vector<RobotOption>& robots) {
   std::map<std::string, std::string> postures;
   for (const RobotOption& robot : robots) {
-    const auto model = RobotModel::load(data_path() / "robots" / robot.model);
+    const auto model = RobotModel::find(robot.model);
     postures[robot.name] = model.ready_posture().name;
   }
   return postures;

@@ -2,7 +2,6 @@
 
 #include "common/bus.h"
 #include "common/command_line.h"
-#include "common/data_path.h"
 #include "common/event_loop.h"
 #include "common/logger.h"
 #include "common/program.h"
@@ -33,7 +32,7 @@ int nao::speaker::run_speaker(int argc, char** argv) {
   return nao::run_program(app, common, argc, argv, [&] {
     options.robot = common.robot;
     options.language = nao::find_speech_language(options.language);
-    const auto model = nao::RobotModel::load(nao::data_path() / "robots" / model_name);
+    const auto model = nao::RobotModel::find(model_name);
     for (const nao::RobotLight& light : nao::load_robot_lights(model)) {
       if (light.is_eye) options.eyes.push_back(light.name);
     }

@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "common/data_path.h"
 #include "common/processor_time.h"
 #include "sim/engine.h"
 #include "tools/bench/run_benchmark.h"
@@ -79,8 +78,7 @@ class Course {
 
 Figure measure(const std::string& model_name, int num_rounds) {
   EnvironmentOptions options;
-  options.model =
-      std::make_shared<RobotModel>(RobotModel::load(data_path() / "robots" / model_name));
+  options.model = std::make_shared<RobotModel>(RobotModel::find(model_name));
   options.manifest = std::make_shared<PolicyManifest>(
       PolicyManifest::parse(*options.model, manifest_of(*options.model), "benchmark"));
   options.disturbances =

@@ -13,7 +13,6 @@
 
 #include "common/bus.h"
 #include "common/channels.h"
-#include "common/data_path.h"
 #include "common/event_loop.h"
 #include "common/processor_time.h"
 #include "common/wall_clock.h"
@@ -179,7 +178,7 @@ double peak_memory_mb() {
 }
 
 std::vector<Figure> run(int num_rounds) {
-  const auto model = nao::RobotModel::load(nao::data_path() / "robots" / "nao");
+  const auto model = nao::RobotModel::find("nao");
   const nao::WorldState world = soccer_world(model);
   std::vector<Figure> figures;
   JpegEncoder encoder;

@@ -4,7 +4,6 @@
 #include <memory>
 #include <vector>
 
-#include "common/data_path.h"
 #include "common/processor_time.h"
 #include "robot_model/robot_model.h"
 #include "sim/closed_loop/closed_loop.h"
@@ -15,7 +14,7 @@ namespace {
 
 ClosedLoopOptions trial_options() {
   ClosedLoopOptions options;
-  options.model = std::make_shared<RobotModel>(RobotModel::load(data_path() / "robots/nao"));
+  options.model = std::make_shared<RobotModel>(RobotModel::find("nao"));
   options.scene = SceneFile::find("empty");
   return options;
 }

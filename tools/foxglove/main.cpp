@@ -8,7 +8,6 @@
 #include "common/bus.h"
 #include "common/channels.h"
 #include "common/command_line.h"
-#include "common/data_path.h"
 #include "common/logger.h"
 #include "common/program.h"
 #include "common/status_reporter.h"
@@ -100,7 +99,7 @@ class ImageRequests {
 void run(const CommonOptions& common, Options options) {
   options.limits = {static_cast<size_t>(options.max_clients),
                     static_cast<size_t>(options.max_queued_mb) * 1'000'000};
-  const RobotModel model = RobotModel::load(data_path() / "robots" / options.model);
+  const RobotModel model = RobotModel::find(options.model);
   AssetFolder files(model.folder(), model.urdf_file());
   ServerCore core(std::string(kProgram) + " " + version() + ", robot " + common.robot,
                   std::to_string(wall_utime()), options.limits,

@@ -11,7 +11,6 @@
 #include "calibration/calibration_run.h"
 #include "common/bus.h"
 #include "common/command_line.h"
-#include "common/data_path.h"
 #include "common/output_file.h"
 #include "common/program.h"
 #include "common/wall_clock.h"
@@ -103,7 +102,7 @@ class Calibrator {
 };
 
 int calibrate(const CommonOptions& common, const CalibrateOptions& options) {
-  const RobotModel model = RobotModel::load(data_path() / "robots" / options.model);
+  const RobotModel model = RobotModel::find(options.model);
   Calibrator calibrator(common, model, options.num_stations);
   const std::string fault = calibrator.execute();
   std::printf("\n");

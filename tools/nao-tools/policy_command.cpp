@@ -7,7 +7,6 @@
 #include <string>
 
 #include "common/command_line.h"
-#include "common/data_path.h"
 #include "common/error.h"
 #include "policy/policy.h"
 #include "policy/policy_runner.h"
@@ -19,7 +18,7 @@ namespace {
 
 /** The robot in whose folder the manifest lies, or the named one. */
 RobotModel load_robot(const std::filesystem::path& manifest_file, const std::string& name) {
-  if (!name.empty()) return RobotModel::load(data_path() / "robots" / name);
+  if (!name.empty()) return RobotModel::find(name);
   const std::filesystem::path folder =
       std::filesystem::weakly_canonical(manifest_file).parent_path().parent_path().parent_path();
   if (!std::filesystem::exists(folder / "robot.yaml")) {

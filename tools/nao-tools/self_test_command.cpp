@@ -11,7 +11,6 @@
 #include <string>
 
 #include "common/command_line.h"
-#include "common/data_path.h"
 #include "common/program.h"
 #include "common/wall_clock.h"
 #include "messages/named_joints.h"
@@ -148,7 +147,7 @@ class SelfTester {
 };
 
 int run_self_test(const CommonOptions& common, const std::string& model_name) {
-  const RobotModel model = RobotModel::load(data_path() / "robots" / model_name);
+  const RobotModel model = RobotModel::find(model_name);
   SelfTester tester(common, model);
   const std::string fault = tester.execute();
   std::fprintf(stderr, "\r     \r");

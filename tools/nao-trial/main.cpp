@@ -5,7 +5,6 @@
 #include <string>
 
 #include "common/command_line.h"
-#include "common/data_path.h"
 #include "common/error.h"
 #include "common/output_file.h"
 #include "common/program.h"
@@ -141,8 +140,7 @@ int main(int argc, char** argv) {
   }
   return nao::run_program(app, common, argc, argv, [&] {
     const Scenario& scenario = *chosen;
-    options.trial.model = std::make_shared<nao::RobotModel>(
-        nao::RobotModel::load(nao::data_path() / "robots" / model_name));
+    options.trial.model = std::make_shared<nao::RobotModel>(nao::RobotModel::find(model_name));
     if (options.trial.is_ideal) disturbances = "none";
     options.trial.disturbances =
         std::make_shared<nao::sim::DisturbanceSet>(nao::sim::DisturbanceSet::find(disturbances));

@@ -9,7 +9,6 @@
 #include <system_error>
 
 #include "common/command_line.h"
-#include "common/data_path.h"
 #include "common/error.h"
 #include "common/program.h"
 #include "phone-gateway/protocol/framing.h"
@@ -77,8 +76,7 @@ int main(int argc, char** argv) {
   app.add_option("--tick-ms", options.tick_ms,
                  "Control period, ms: a multiple of 2 (0: as the disturbances say, or 10)");
   return nao::run_program(app, common, argc, argv, [&] {
-    options.model = std::make_shared<nao::RobotModel>(
-        nao::RobotModel::load(nao::data_path() / "robots" / model));
+    options.model = std::make_shared<nao::RobotModel>(nao::RobotModel::find(model));
     options.scene = nao::SceneFile::find(scene);
     options.disturbances =
         std::make_shared<nao::sim::DisturbanceSet>(nao::sim::DisturbanceSet::find(disturbances));

@@ -8,7 +8,6 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "common/command_line.h"
-#include "common/data_path.h"
 #include "common/error.h"
 #include "common/output_file.h"
 #include "common/program.h"
@@ -44,7 +43,7 @@ std::vector<nao::vision::SceneKind> read_kinds(const std::vector<std::string>& n
 }
 
 void write_dataset(const DatasetOptions& options) {
-  const auto model = nao::RobotModel::load(nao::data_path() / "robots" / options.model);
+  const auto model = nao::RobotModel::find(options.model);
   const nao::SceneFile field = nao::SceneFile::find("soccer");
   std::filesystem::create_directories(options.folder);
   nao::vision::DatasetRenderer renderer(model, field);
