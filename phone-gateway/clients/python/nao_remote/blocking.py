@@ -16,6 +16,7 @@ from typing import Any, Callable, Coroutine, Generic, Iterator, Mapping, TypeVar
 from nao_remote import aio
 from nao_remote import remote_pb2 as pb
 from nao_remote.aio import CHECK_TIMEOUT, MOTION_TIMEOUT, PLAY_TIMEOUT
+from nao_remote.by_name import ByName
 from nao_remote.command import Command as AsyncCommand
 from nao_remote.errors import Closed
 from nao_remote.joints import Joint as AsyncJoint
@@ -230,23 +231,6 @@ class Joint:
             angle, speed, allow_tipping=allow_tipping, wait=wait, timeout=timeout)), self._loop)
 
 
-class Joints(Mapping[str, Joint]):
-    """All joints by name."""
-
-    def __init__(self, joints: Mapping[str, AsyncJoint], loop: LoopThread) -> None:
-        self._joints = joints
-        self._loop = loop
-
-    def __getitem__(self, name: str) -> Joint:
-        return Joint(self._joints[name], self._loop)
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._joints)
-
-    def __len__(self) -> int:
-        return len(self._joints)
-
-
 class Light:
     """One light; see nao_remote.lights.Light."""
 
@@ -265,23 +249,6 @@ class Light:
     def set(self, color: Color, duration: float = 0.0, *, timeout: float = LIGHT_TIMEOUT) -> Command:
         """Sets its color: "#ff8000", or red, green and blue, each 0 to 1."""
         return Command(self._loop.call(self._light.set(color, duration, timeout=timeout)), self._loop)
-
-
-class Lights(Mapping[str, Light]):
-    """All lights by name."""
-
-    def __init__(self, lights: Mapping[str, AsyncLight], loop: LoopThread) -> None:
-        self._lights = lights
-        self._loop = loop
-
-    def __getitem__(self, name: str) -> Light:
-        return Light(self._lights[name], self._loop)
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._lights)
-
-    def __len__(self) -> int:
-        return len(self._lights)
 
 
 class Operator:
@@ -330,8 +297,8 @@ class Robot:
         self._robot = robot
         self._loop = loop
         # The joints and lights by name; the operator's console.
-        self.joints = Joints(robot.joints, loop)
-        self.lights = Lights(robot.lights, loop)
+        self.joints = ByName("joint", lambda: robot.joints, lambda name: Joint(robot.joints[name], loop))
+        self.lights = ByName("light", lambda: robot.lights, lambda name: Light(robot.lights[name], loop))
         self.operator = Operator(robot.operator, loop)
 
     def __enter__(self) -> Robot:
