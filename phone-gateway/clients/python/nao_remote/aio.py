@@ -258,7 +258,7 @@ class Robot(RobotCore):
             await asyncio.sleep(IMAGE_POLL_PERIOD)
 
     def states(self, rate: float = 20.0, timeout: float | None = 5.0) -> Stream[State]:
-        """A stream of the newest states: `with robot.states() as states: async for state in states: ...`
+        """A stream of the newest states, to be iterated over: `with robot.states() as states: ...`
 
         @param rate  A second, up to 60; streams share the highest rate.
         @param timeout  Longest time between states while there is a connection, for iterating, s; None: without end.
