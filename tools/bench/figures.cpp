@@ -56,8 +56,7 @@ std::string to_json(const std::vector<Figure>& figures) {
     }
     json.end();
   }
-  json.end();
-  return json.text() + "\n";
+  return json.take() + "\n";
 }
 
 }  // namespace nao

@@ -66,8 +66,7 @@ std::string ChannelStatistics::to_json(double now) const {
     json.add("age_s", now - record.last_time);
     json.end();
   }
-  json.end();
-  return json.text();
+  return json.take();
 }
 
 }  // namespace nao

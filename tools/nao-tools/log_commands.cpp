@@ -127,15 +127,13 @@ int write_json(const LogOptions& options) {
   Output output(options.output);
   const auto write = [&](const LogEvent& event, const MessageLayout& layout,
                          const std::string& message) {
-    JsonWriter head;
-    head.begin_object();
-    head.add("log_wall_utime", int64_t{event.wall_utime});
-    head.add("channel", event.channel);
-    head.add("type", layout.name);
-    head.end();
-    std::string line = head.text();
-    line.pop_back();
-    output.stream() << line << ",\"message\":" << message << "}\n";
+    JsonWriter json;
+    json.begin_object();
+    json.add("log_wall_utime", int64_t{event.wall_utime});
+    json.add("channel", event.channel);
+    json.add("type", layout.name);
+    json.add_json("message", message);
+    output.stream() << json.take() << "\n";
   };
   const Undecodable undecodable = read_as_json(log, selected, write);
   output.finish();

@@ -110,9 +110,7 @@ std::string to_json(const Summary& summary) {
     json.add("unit", unit_of(summary, name));
     json.end();
   }
-  json.end();
-  json.end();
-  return json.text() + "\n";
+  return json.take() + "\n";
 }
 
 }  // namespace nao::trial

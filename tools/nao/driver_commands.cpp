@@ -58,8 +58,7 @@ void print_json(const naoremote::Clients& clients) {
     json.add("num_skipped", static_cast<int64_t>(client.num_skipped()));
     json.end();
   }
-  json.end();
-  std::printf("%s\n", json.text().c_str());
+  std::printf("%s\n", json.take().c_str());
 }
 
 void print_table(const naoremote::Clients& clients) {

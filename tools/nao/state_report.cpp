@@ -106,9 +106,7 @@ std::string to_json(const naolcm::robot_state_t& robot, const naolcm::motion_sta
   json.add("wz", motion.wz);
   json.add("stiffness", motion.stiffness);
   json.add("last_refusal", motion.last_refusal);
-  json.end();
-  json.end();
-  return json.text() + "\n";
+  return json.take() + "\n";
 }
 
 int run_state(const CommonOptions& common, bool as_json, bool watches) {

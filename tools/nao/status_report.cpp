@@ -143,8 +143,7 @@ class StatusListener {
       json.end();
       json.end();
     }
-    json.end();
-    return json.text() + "\n";
+    return json.take() + "\n";
   }
 
  private:

@@ -89,8 +89,7 @@ std::string to_json(const naolcm::world_truth_t& truth) {
   json.add("position_ball_in_world", truth.position_ball_in_world, 3);
   json.add("velocity_ball_in_world", truth.velocity_ball_in_world, 3);
   json.add("num_contacts", truth.num_contacts);
-  json.end();
-  return json.text() + "\n";
+  return json.take() + "\n";
 }
 
 int run_show(const CommonOptions& common, bool as_json) {

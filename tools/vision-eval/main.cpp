@@ -129,8 +129,7 @@ int evaluate(const EvalOptions& options) {
       nao::replace_file(file.string() + ".png", {png.begin(), png.end()});
     }
   }
-  json.end();
-  if (!options.json_file.empty()) nao::replace_file(options.json_file, json.text() + "\n");
+  if (!options.json_file.empty()) nao::replace_file(options.json_file, json.take() + "\n");
   fmt::print("{} images of {}\n\n", images.size() - num_unreadable, options.folder);
   if (has_labels) fmt::print("{}\n", scores.table());
   times.print();
