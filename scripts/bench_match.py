@@ -65,29 +65,25 @@ def measure_robots(stack, count, figure):
 
 def linear_fit(counts, costs):
     """Least squares of costs = shared + each * count. @return shared, each, and the greatest deviation in % of the cost."""
-    mean_count, mean_cost = sum(counts) / len(counts), sum(costs) / len(costs)
-    each = (sum((count - mean_count) * (cost - mean_cost) for count, cost in zip(counts, costs))
-            / sum((count - mean_count) ** 2 for count in counts))
-    shared = mean_cost - each * mean_count
+    each, shared = statistics.linear_regression(counts, costs)
     return shared, each, max(abs(cost / (shared + each * count) - 1) for count, cost in zip(counts, costs)) * 100
 
 
 @contextlib.contextmanager
-def people(stack):
-    """People drive their robots and see states and images until the end. @return lambda: images that each has received."""
+def phones(stack, velocity, names=("",)):
+    """Phones drive their robots and see states and images until the end. @param names  Robots; empty: the only one.
+    @return lambda: the lines that each phone has printed."""
     # Lines at once: they are counted.
-    phone = ["stdbuf", "-oL", str(stack.bin_dir / "nao-phone"), "--port", stack.setting("tcp_port")]
+    phone = ["stdbuf", "-oL", str(stack.bin_dir / "nao-phone"), "--port", stack.setting("tcp_port"), "--robot"]
     quiet = {"stdin": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
     logs, processes = [], []
     try:
-        for name in PEOPLE:
-            logs.append(tempfile.TemporaryFile("w+"))
-            watch = [*phone, "--robot", name, "watch", *PHONE, "--duration", "600"]
-            processes.append(subprocess.Popen(watch, stdout=logs[-1], **quiet))
-            drive = [*phone, "--robot", name, "walk", *WALK, "--duration", "600"]
-            processes.append(subprocess.Popen(drive, stdout=subprocess.DEVNULL, **quiet))
-        yield lambda: [sum(line.startswith("image") for line in os.pread(log.fileno(), 1 << 26, 0).decode().splitlines())
-                       for log in logs]
+        for name in names:
+            logs.append(tempfile.TemporaryFile())
+            for words, output in (["watch", *PHONE], logs[-1]), (["walk", *velocity], subprocess.DEVNULL):
+                command = [*phone, name, *words, "--duration", "600"]
+                processes.append(subprocess.Popen(command, stdout=output, **quiet))
+        yield lambda: [os.pread(log.fileno(), 1 << 26, 0).decode().splitlines() for log in logs]
         if any(process.poll() is not None for process in processes):
             raise RuntimeError("a phone has ended")
     finally:
@@ -103,7 +99,8 @@ def measure_match(bin_dir, stack_class, figure):
     truth = lambda: json.loads(stack.nao("world", "show", "--json"))
     with stack_class(bin_dir) as stack:
         stack.start("--match", "2v2", "--vision", "--autonomous", ",".join(AUTONOMOUS))
-        with people(stack) as count_images:
+        with phones(stack, WALK, PEOPLE) as lines:
+            count_images = lambda: [sum(line.startswith("image") for line in seen) for seen in lines()]
             stack.nao("match", "start")
             time.sleep(SETTLE_TIME)
             before, first, images, begin = stack.usage()[0], truth(), count_images(), time.monotonic()

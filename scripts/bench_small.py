@@ -4,11 +4,11 @@ import contextlib
 import json
 import os
 import re
-import subprocess
 import sys
-import tempfile
 import time
 from pathlib import Path
+
+import bench_match
 
 # Half a core, as us of processor time in each period of us, and bytes.
 QUOTA, PERIOD = 50_000, 100_000
@@ -18,8 +18,7 @@ SETTLE_TIME = 8
 # Measured time of each part, and the period in which memory is read meanwhile, s.
 DURATION = 20
 SAMPLE_PERIOD = 1
-# What the app asks for: states and images, of 320 pixels, a second. In circles of 0.25 m. m/s, m/s, rad/s.
-PHONE = ("--rate", "60", "--images", "15")
+# In circles of 0.25 m. m/s, m/s, rad/s.
 WALK = ("0.15", "0", "0.6")
 CGROUPS = Path("/sys/fs/cgroup")
 
@@ -81,24 +80,6 @@ def measure_usage(stack, prefix, figure):
             figure(f"{prefix}.peak_private_mb", peak / 1e6, "MB")]
 
 
-@contextlib.contextmanager
-def phone(stack):
-    """A phone drives and watches until the end. @return lambda: what it has printed."""
-    command = ["stdbuf", "-oL", str(stack.bin_dir / "nao-phone"), "--port", stack.setting("tcp_port")]
-    with tempfile.TemporaryFile() as log:
-        quiet = {"stdin": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
-        processes = [subprocess.Popen([*command, "watch", *PHONE, "--duration", "600"], stdout=log, **quiet),
-                     subprocess.Popen([*command, "walk", *WALK, "--duration", "600"], stdout=subprocess.DEVNULL, **quiet)]
-        try:
-            yield lambda: os.pread(log.fileno(), 1 << 26, 0).decode().splitlines()
-            if any(process.poll() is not None for process in processes):
-                raise RuntimeError("a phone has ended")
-        finally:
-            for process in processes:
-                process.terminate()
-                process.wait()
-
-
 def percentile(values, fraction):
     return sorted(values)[min(len(values) - 1, int(fraction * len(values)))] if values else None
 
@@ -106,11 +87,11 @@ def percentile(values, fraction):
 def measure_driving(stack, figure):
     """One phone drives and watches."""
     truth = lambda: json.loads(stack.nao("world", "show", "--json"))
-    with phone(stack) as lines:
+    with bench_match.phones(stack, WALK) as phones:
         time.sleep(SETTLE_TIME)
-        first, num_lines, begin = truth(), len(lines()), time.monotonic()
+        first, num_lines, begin = truth(), len(phones()[0]), time.monotonic()
         figures = measure_usage(stack, "small.driving", figure)
-        last, seen, seconds = truth(), lines()[num_lines:], time.monotonic() - begin
+        last, seen, seconds = truth(), phones()[0][num_lines:], time.monotonic() - begin
     ages = {is_image: [float(line.split()[-2]) for line in seen if line.endswith(" ms") and line.startswith("image") == is_image]
             for is_image in (False, True)}
     late = last["num_late_ticks"] - first["num_late_ticks"]

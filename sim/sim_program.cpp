@@ -44,31 +44,26 @@ int nao::sim::run_sim(int argc, char** argv) {
   std::string model = "nao";
   bool prints_places = false;
   nao::add_robot_option(app, robots);
-  app.add_option("--model", model, "Folder of robots/ that describes robots without a model")
-      ->show_default();
-  app.add_option("--scene", options.scene, "Surroundings of the robot: soccer or empty")
-      ->show_default();
-  app.add_option("--posture", options.posture, "Posture that the robots start in")->show_default();
+  app.add_option("--model", model, "Folder of robots/ that describes robots without a model");
+  app.add_option("--scene", options.scene, "Surroundings of the robot: soccer or empty");
+  app.add_option("--posture", options.posture, "Posture that the robots start in");
   app.add_option("--pace", options.pace,
                  "Simulated seconds per second of wall time, 0 as fast as possible")
-      ->range(0.0, 1000.0)
-      ->show_default();
+      ->range(0.0, 1000.0);
   app.add_flag("--lock-step", options.lock_step,
                "Compute a tick only after the joint command for the one before was received");
   app.add_flag("--ideal-sensors", options.ideal_sensors,
                "Sensors without quantization, noise, bias, range or drift");
   app.add_option("--engine", options.engine,
-                 "Physics engine: fast, simbody, or mujoco where it was built")
-      ->show_default();
+                 "Physics engine: fast, simbody, or mujoco where it was built");
   app.add_option("--threads", options.num_threads,
                  "Threads that compute the physics of robots which are far from each other; "
                  "the result does not depend on it")
-      ->range(1, 64)
-      ->show_default();
+      ->range(1, 64);
   app.add_option("--disturbances", options.disturbances,
                  "How robot and floor differ from their models: none, default, moderate, real, or "
                  "entries of real such as backlash,floor_slope (empty: sensor noise only)");
-  app.add_option("--seed", options.seed, "Seed of noise and disturbances")->show_default();
+  app.add_option("--seed", options.seed, "Seed of noise and disturbances");
   app.add_option("--tick-ms", options.tick_ms,
                  "Control period, ms: a multiple of the physics step of 2 ms (default: as the "
                  "disturbances say, or 10)")

@@ -8,7 +8,6 @@
 #include "backends/imgui_impl_glfw.h"
 #include "common/bus.h"
 #include "common/command_line.h"
-#include "common/data_path.h"
 #include "common/event_loop.h"
 #include "common/logger.h"
 #include "common/program.h"
@@ -28,32 +27,26 @@ namespace {
 constexpr double kRate = 30;
 
 void add_options(nao::CommandLine& app, ViewerOptions& options) {
-  app.add_option("--model", options.model, "Folder of robots/ that describes the robot shown")
-      ->show_default();
+  app.add_option("--model", options.model, "Folder of robots/ that describes the robot shown");
   app.add_option("--log", options.log_file, "Log of lcm-logger to play instead of the bus")
       ->existing_file();
-  app.add_option("--log-start", options.log_start, "Time in the log to start at, s")
-      ->show_default();
+  app.add_option("--log-start", options.log_start, "Time in the log to start at, s");
   app.add_flag("--paused", options.is_paused, "Start with the log paused");
   app.add_option("--screenshot", options.screenshot, "Write a PNG file after --frames, then end");
-  app.add_option("--frames", options.num_frames, "Frames before the screenshot, 30 a second")
-      ->show_default();
+  app.add_option("--frames", options.num_frames, "Frames before the screenshot, 30 a second");
   app.add_flag("--offscreen", options.is_offscreen, "Draw the screenshot without window or screen");
   app.add_flag("--no-panels", options.without_panels, "Show the 3D view only");
   app.add_option("--supersample", options.supersample,
-                 "With --offscreen --no-panels: resolution factor, 1 to 4, before downsampling")
-      ->show_default();
-  app.add_option("--width", options.width, "Width, pixels")->show_default();
-  app.add_option("--height", options.height, "Height, pixels")->show_default();
-  app.add_option("--shadow-size", options.shadow_size, "Side of the shadow map, texels; 0: none")
-      ->show_default();
+                 "With --offscreen --no-panels: resolution factor, 1 to 4, before downsampling");
+  app.add_option("--width", options.width, "Width, pixels");
+  app.add_option("--height", options.height, "Height, pixels");
+  app.add_option("--shadow-size", options.shadow_size, "Side of the shadow map, texels; 0: none");
   app.add_option("--view", options.view,
                  "Camera: azimuth and elevation (degrees), distance (m), and optionally the target "
                  "x, y, z (m)")
       ->separated_by(',');
   app.add_option("--plot", options.plots, "Curve at the start: CHANNEL:FIELD; can be repeated");
-  app.add_option("--posture", options.waiting_posture, "Posture shown before a state is received")
-      ->show_default();
+  app.add_option("--posture", options.waiting_posture, "Posture shown before a state is received");
   app.add_flag("!--no-follow", options.follow, "Do not follow the robot with the camera");
   app.add_flag("--no-marks", options.without_marks,
                "Show robots and ball only, no forces, footsteps and other markings");
@@ -147,7 +140,7 @@ int run(int argc, char** argv) {
     EventLoop loop;
     std::optional<Bus> bus;
     if (options.log_file.empty()) bus.emplace(common.lcm_url);
-    const auto model = RobotModel::load(data_path() / "robots" / options.model);
+    const auto model = RobotModel::find(options.model);
     nao::logger::info("version {}, {}, robot {} from {}", version(),
                       bus ? "bus " + common.lcm_url : "log " + options.log_file, options.robot,
                       model.folder().string());

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <string>
 
 #include "rendering/pinhole_camera.h"
 #include "viewer/handle.h"

@@ -5,7 +5,6 @@
 
 #include <cmath>
 #include <naolcm/camera_command_t.hpp>
-#include <stdexcept>
 
 #include "backends/imgui_impl_opengl3.h"
 #include "common/bus.h"

@@ -20,8 +20,7 @@ using nao::camera::HeadCameraOptions;
 void add_image_options(nao::CommandLine& app, HeadCameraOptions& options) {
   app.add_option("--source", options.source,
                  "Where images come from: rendered from a simulator's state, or v4l2: cameras")
-      ->one_of({"rendered", "v4l2"})
-      ->show_default();
+      ->one_of({"rendered", "v4l2"});
   app.add_option("--device", options.devices,
                  "Device file of a camera of --source v4l2, CAMERA=FILE (default: those of the "
                  "robot's head_cameras.yaml)")
@@ -29,16 +28,12 @@ void add_image_options(nao::CommandLine& app, HeadCameraOptions& options) {
   app.add_flag("--always", options.always, "Send images although none are requested");
   app.add_option("--camera", options.camera,
                  "Camera of --always (default: the first one of the robot's description)");
-  app.add_option("--width", options.width, "Width of --always, pixels: 640, 320 or 160")
-      ->show_default();
-  app.add_option("--rate", options.rate, "Images a second of --always, 1 to 30")->show_default();
-  app.add_option("--quality", options.quality, "JPEG quality of requests that give none, 1 to 95")
-      ->show_default();
-  app.add_option("--shadow-size", options.shadow_size, "Side of the shadow map, texels; 0: none")
-      ->show_default();
+  app.add_option("--width", options.width, "Width of --always, pixels: 640, 320 or 160");
+  app.add_option("--rate", options.rate, "Images a second of --always, 1 to 30");
+  app.add_option("--quality", options.quality, "JPEG quality of requests that give none, 1 to 95");
+  app.add_option("--shadow-size", options.shadow_size, "Side of the shadow map, texels; 0: none");
   app.add_option("--egl-platform", options.egl_platform,
-                 "EGL platform: auto, device, surfaceless or default")
-      ->show_default();
+                 "EGL platform: auto, device, surfaceless or default");
 }
 
 /** Values of the command line that need conversion. */
@@ -65,12 +60,11 @@ void add_sensor_options(nao::CommandLine& app, HeadCameraOptions& options,
                  "Radial lens distortion K1 [K2] of the Brown-Conrady model, as OpenCV defines it, "
                  "each -2 to 2; K1 below 0: barrel (default: none)")
       ->count(1, 2);
-  app.add_option("--p1", distortion.p1, "Tangential lens distortion p1, -2 to 2")->show_default();
-  app.add_option("--p2", distortion.p2, "Tangential lens distortion p2, -2 to 2")->show_default();
-  app.add_option("--k3", distortion.k3, "Radial lens distortion k3, -2 to 2")->show_default();
+  app.add_option("--p1", distortion.p1, "Tangential lens distortion p1, -2 to 2");
+  app.add_option("--p2", distortion.p2, "Tangential lens distortion p2, -2 to 2");
+  app.add_option("--k3", distortion.k3, "Radial lens distortion k3, -2 to 2");
   app.add_option("--noise", options.noise,
-                 "Standard deviation of the noise of each color, 0 to 60 levels of 255")
-      ->show_default();
+                 "Standard deviation of the noise of each color, 0 to 60 levels of 255");
   app.add_option("--exposure", sensor.exposure_ms,
                  "Exposure time, 0 to 33 ms; blurs motion (default: 0)");
   app.add_option("--webots-images", sensor.webots_port,

@@ -37,8 +37,7 @@ MotionFilesDaemon::MotionFilesDaemon(Bus& bus, EventLoop& loop, const RobotModel
       checker_(options) {
   for (const std::string& fault : core_.store().faults()) logger::warn("{}", fault);
   bus_.subscribe<naolcm::motion_file_command_t>(
-      channels_.motion_file_command, Bus::Queue::kAll,
-      [this](const naolcm::motion_file_command_t& message) {
+      channels_.motion_file_command, Bus::Queue::kAll, [this](const auto& message) {
         const auto command = from_message(message);
         if (!command)
           throw MessageError("its operation is unknown, or its lists have unequal lengths");
@@ -46,8 +45,7 @@ MotionFilesDaemon::MotionFilesDaemon(Bus& bus, EventLoop& loop, const RobotModel
         step();
       });
   bus_.subscribe<naolcm::daemon_status_t>(
-      kDaemonStatusChannel, Bus::Queue::kAll,
-      [this, robot](const naolcm::daemon_status_t& message) {
+      kDaemonStatusChannel, Bus::Queue::kAll, [this, robot](const auto& message) {
         if (message.program != kMotionProgram || message.robot != robot) return;
         // A new nao-motion has no taught motions.
         if (!motion_processes_.insert({message.host, message.process_id}).second) return;

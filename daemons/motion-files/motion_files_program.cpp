@@ -36,8 +36,7 @@ int nao::motion_files::run_motion_files(int argc, char** argv) {
   return nao::run_program(app, common, argc, argv, [&] {
     setpriority(PRIO_PROCESS, 0, kNiceness);
     if (folder.empty()) folder = (nao::state_path() / "motions").string();
-    const auto model = std::make_shared<const nao::RobotModel>(
-        nao::RobotModel::load(nao::data_path() / "robots" / model_name));
+    const auto model = std::make_shared<const nao::RobotModel>(nao::RobotModel::find(model_name));
     nao::ClosedLoopOptions options;
     options.model = model;
     options.scene = nao::SceneFile::find("empty");

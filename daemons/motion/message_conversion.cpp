@@ -91,14 +91,6 @@ void read_foot_sensors(const RobotModel& model, const naolcm::sensor_state_t& me
   }
 }
 
-template <class Message>
-Command command_from(const Message& message) {
-  Command command;
-  command.source = message.source;
-  command.id = message.command_id;
-  return command;
-}
-
 }  // namespace
 
 Sensors to_sensors(const RobotModel& model, const naolcm::sensor_state_t& message) {
@@ -118,41 +110,30 @@ Sensors to_sensors(const RobotModel& model, const naolcm::sensor_state_t& messag
 }
 
 Command to_command(const naolcm::walk_command_t& message) {
-  Command command = command_from(message);
-  command.request = WalkCommand{message.vx, message.vy, message.wz};
-  return command;
+  return {message.source, message.command_id, WalkCommand{message.vx, message.vy, message.wz}};
 }
 
 Command to_command(const naolcm::move_to_command_t& message) {
-  Command command = command_from(message);
-  command.request = MoveToCommand{message.x, message.y, message.theta};
-  return command;
+  return {message.source, message.command_id, MoveToCommand{message.x, message.y, message.theta}};
 }
 
 Command to_command(const naolcm::posture_command_t& message) {
-  Command command = command_from(message);
-  command.request = PostureCommand{message.posture, message.speed};
-  return command;
+  return {message.source, message.command_id, PostureCommand{message.posture, message.speed}};
 }
 
 Command to_command(const naolcm::joint_change_command_t& message) {
-  Command command = command_from(message);
-  command.request =
-      JointChangeCommand{message.joint_names, message.joint_position,     message.is_relative != 0,
-                         message.speed,       message.allow_tipping != 0, message.joint_stiffness};
-  return command;
+  return {message.source, message.command_id,
+          JointChangeCommand{message.joint_names, message.joint_position, message.is_relative != 0,
+                             message.speed, message.allow_tipping != 0, message.joint_stiffness}};
 }
 
 Command to_command(const naolcm::action_command_t& message) {
-  Command command = command_from(message);
-  command.request = ActionCommand{message.action, message.ball_x, message.ball_y, message.strength};
-  return command;
+  return {message.source, message.command_id,
+          ActionCommand{message.action, message.ball_x, message.ball_y, message.strength}};
 }
 
 Command to_command(const naolcm::stop_command_t& message) {
-  Command command = command_from(message);
-  command.request = StopCommand{};
-  return command;
+  return {message.source, message.command_id, StopCommand{}};
 }
 
 std::optional<SeenBall> to_seen_ball(const naolcm::vision_state_t& message) {

@@ -53,8 +53,7 @@ MotionDaemon::MotionDaemon(Bus& bus, EventLoop& loop, const RobotModel& model,
   subscribe_to_command<naolcm::action_command_t>(channels_.action_command);
   subscribe_to_command<naolcm::stop_command_t>(channels_.stop_command);
   bus_.subscribe<naolcm::keyframe_motion_t>(
-      channels_.keyframe_motion, Bus::Queue::kAll,
-      [this](const naolcm::keyframe_motion_t& message) {
+      channels_.keyframe_motion, Bus::Queue::kAll, [this](const auto& message) {
         if (taught_.size() >= kMaxWaitingMotions) {
           throw MessageError("more than " + std::to_string(kMaxWaitingMotions) +
                              " motions in one step");
@@ -63,11 +62,11 @@ MotionDaemon::MotionDaemon(Bus& bus, EventLoop& loop, const RobotModel& model,
       });
   bus_.subscribe<naolcm::vision_state_t>(
       channels_.vision_state, Bus::Queue::kLatest,
-      [this](const naolcm::vision_state_t& message) { ball_ = to_seen_ball(message); });
+      [this](const auto& message) { ball_ = to_seen_ball(message); });
   // The latest sensor state only: an older one would be answered with targets for the past.
   bus_.subscribe<naolcm::sensor_state_t>(
       channels_.sensor_state, Bus::Queue::kLatest,
-      [this](const naolcm::sensor_state_t& message) { take_sensor_state(message); });
+      [this](const auto& message) { take_sensor_state(message); });
   loop.on_readable(bus_.descriptor(), [this] { bus_.handle(); });
   silence_timer_ = loop.every(kSilencePeriod, [this] { check_for_silence(); });
   loop.every_aligned(kStatusPeriod, [this] { publish_status(); });

@@ -1,7 +1,6 @@
 #include "daemons/motion/motion_options.h"
 
 #include <sstream>
-#include <string>
 
 #include "common/error.h"
 

@@ -1,12 +1,9 @@
 #include "daemons/motion/motion_program.h"
 
-#include <algorithm>
-#include <cctype>
 #include <string>
 
 #include "common/bus.h"
 #include "common/command_line.h"
-#include "common/data_path.h"
 #include "common/event_loop.h"
 #include "common/logger.h"
 #include "common/program.h"
@@ -25,8 +22,7 @@ int nao::motion::run_motion(int argc, char** argv) {
   nao::motion::MotionOptions options;
   nao::add_model_option(app, model_name);
   app.add_option("--default-speed", options.default_speed,
-                 "Speed of the robot's own motions, fraction of the maximum")
-      ->show_default();
+                 "Speed of the robot's own motions, fraction of the maximum");
   app.add_option("--walk-policy", options.walk_policy,
                  "Policy that walks instead of the gait, a folder in policies/ of the robot");
   app.add_option("--calibration", calibration_file,
@@ -34,7 +30,7 @@ int nao::motion::run_motion(int argc, char** argv) {
   app.add_flag("!--no-get-up", options.gets_up, "After a fall, remain lying until a command");
   return nao::run_program(app, common, argc, argv, [&] {
     // Errors of the model end the program here, before it answers on any channel.
-    const nao::RobotModel model = nao::RobotModel::load(nao::data_path() / "robots" / model_name);
+    const nao::RobotModel model = nao::RobotModel::find(model_name);
     if (nao::request_realtime_scheduling(nao::RealtimePriority::kControl))
       nao::logger::info("real-time scheduling granted");
     if (!calibration_file.empty()) {

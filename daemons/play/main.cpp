@@ -5,7 +5,6 @@
 #include "common/bus.h"
 #include "common/command_line.h"
 #include "common/constants.h"
-#include "common/data_path.h"
 #include "common/event_loop.h"
 #include "common/logger.h"
 #include "common/program.h"
@@ -22,7 +21,7 @@ int main(int argc, char** argv) {
   std::string model_name = "nao";
   std::vector<double> start_pose = {0, 0, 0};
   nao::add_model_option(app, model_name);
-  app.add_option("--scene", options.scene, "Scene with the field's dimensions")->show_default();
+  app.add_option("--scene", options.scene, "Scene with the field's dimensions");
   app.add_option(
          "--start-pose", start_pose,
          "X,Y,HEADING: pose of the robot on the field when nao-motion starts, used until "
@@ -36,7 +35,7 @@ int main(int argc, char** argv) {
   return nao::run_program(app, common, argc, argv, [&] {
     options.robot = common.robot;
     options.start_in_field = {{start_pose[0], start_pose[1]}, start_pose[2] * nao::kDegree};
-    const auto model = nao::RobotModel::load(nao::data_path() / "robots" / model_name);
+    const auto model = nao::RobotModel::find(model_name);
     nao::EventLoop loop;
     nao::Bus bus(common.lcm_url);
     nao::logger::info("version {}, bus {}, robot {} from {}, scene {}", nao::version(),

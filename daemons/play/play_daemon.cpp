@@ -70,14 +70,14 @@ PlayDaemon::PlayDaemon(Bus& bus, const RobotModel& model, const PlayOptions& opt
 
 void PlayDaemon::subscribe() {
   bus_.subscribe<naolcm::play_command_t>(
-      channels_.play_command, Bus::Queue::kAll, [this](const naolcm::play_command_t& message) {
+      channels_.play_command, Bus::Queue::kAll, [this](const auto& message) {
         const PlayCommand command = to_play_command(message);
         input_.requests.push_back({message.source, message.command_id, command});
         const bool is_other = message.source != source_ && command.behavior != Behavior::kAuto;
         if (is_other) autonomy_.note_other_command(clock_());
       });
   bus_.subscribe<naolcm::robot_state_t>(
-      channels_.robot_state, Bus::Queue::kLatest, [this](const naolcm::robot_state_t& message) {
+      channels_.robot_state, Bus::Queue::kLatest, [this](const auto& message) {
         const RobotPose pose = decode_pose(model_, message);
         input_.robot = viewer_.look(pose.torso_in_odometry, pose.position);
         torso_.add(message.utime, input_.robot->torso_in_odometry);
@@ -85,23 +85,22 @@ void PlayDaemon::subscribe() {
         last_robot_ = clock_();
       });
   bus_.subscribe<naolcm::motion_state_t>(channels_.motion_state, Bus::Queue::kLatest,
-                                         [this](const naolcm::motion_state_t& message) {
+                                         [this](const auto& message) {
                                            input_.mode = static_cast<Mode>(message.mode);
                                            input_.needs_help = message.needs_help != 0;
                                            last_motion_ = clock_();
                                          });
-  bus_.subscribe<naolcm::vision_state_t>(channels_.vision_state, Bus::Queue::kLatest,
-                                         [this](const naolcm::vision_state_t& message) {
-                                           input_.vision = decode_vision(message, torso_);
-                                         });
+  bus_.subscribe<naolcm::vision_state_t>(
+      channels_.vision_state, Bus::Queue::kLatest,
+      [this](const auto& message) { input_.vision = decode_vision(message, torso_); });
   bus_.subscribe<naolcm::match_state_t>(kMatchStateChannel, Bus::Queue::kLatest,
-                                        [this](const naolcm::match_state_t& message) {
+                                        [this](const auto& message) {
                                           match_ = to_match_state(message);
                                           last_match_ = clock_();
                                           watch_teammates(*match_);
                                         });
   bus_.subscribe<naolcm::command_result_t>(channels_.command_result, Bus::Queue::kAll,
-                                           [this](const naolcm::command_result_t& message) {
+                                           [this](const auto& message) {
                                              if (message.source == source_)
                                                input_.results.push_back(read_result(message));
                                            });
@@ -136,7 +135,7 @@ void PlayDaemon::watch_teammates(const MatchState& state) {
     if (!watched_.insert(player.robot).second) continue;
     bus_.subscribe<naolcm::vision_state_t>(
         RobotChannels(player.robot).vision_state, Bus::Queue::kLatest,
-        [this, name = player.robot](const naolcm::vision_state_t& message) {
+        [this, name = player.robot](const auto& message) {
           const TeamObservation seen = decode_observation(message);
           // An image without the ball does not cancel the previous sighting.
           TeamObservation& kept = teammates_[name];

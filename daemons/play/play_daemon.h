@@ -6,7 +6,6 @@
 #include <optional>
 #include <set>
 #include <string>
-#include <vector>
 
 #include "common/channels.h"
 #include "common/status_reporter.h"

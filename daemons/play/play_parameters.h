@@ -2,166 +2,54 @@
 
 #include <filesystem>
 
+#include "common/parameter_group.h"
+
 namespace nao::play {
 
 /** Places, distances and times of the behaviors: data/play/parameters.yaml, which states their
  * units, meaning and origin. Groups and members carry the file's keys. */
 struct PlayParameters {
   /** Path of the feet to their place behind the ball. */
-  struct Approach {
-    double circle = 0;
-    double least_lead = 0;
-    double behind = 0;
-    double far = 0;
-    double position_gain = 0;
-    double heading_gain = 0;
-    double near_forward = 0;
-    double near_sideways = 0;
-    double limit_fraction = 0;
-    double turn_fraction = 0;
-  };
+  NAO_PARAMETER_GROUP(Approach, approach, circle, least_lead, behind, far, position_gain,
+                      heading_gain, near_forward, near_sideways, limit_fraction, turn_fraction);
   /** Direction of a shot. */
-  struct ShotAim {
-    double kick_distance = 0;
-    double least_tolerance = 0;
-    double greatest_tolerance = 0;
-    double direction_error = 0;
-    double far_tolerance = 0;
-    double post_margin = 0;
-    double keeper_distance = 0;
-    double keeper_half = 0;
-    double keeper_out = 0;
-    double equal_sides = 0;
-    double blocking_distance = 0;
-    double blocking_angle = 0;
-    double past_tolerance = 0;
-  };
+  NAO_PARAMETER_GROUP(ShotAim, shot_aim, kick_distance, least_tolerance, greatest_tolerance,
+                      direction_error, far_tolerance, post_margin, keeper_distance, keeper_half,
+                      keeper_out, equal_sides, blocking_distance, blocking_angle, past_tolerance);
   /** A ball in front of the walking feet. */
-  struct BallInWalk {
-    double push_reach = 0;
-    double passing_goal_distance = 0;
-    double shot_distance = 0;
-    double contested_distance = 0;
-    double passing_near = 0;
-    double passing_far = 0;
-    double passing_aside = 0;
-    double passing_tolerance = 0;
-    double passing_age = 0;
-    double carry_to = 0;
-    double carry_near = 0;
-    double carry_aside = 0;
-    double carry_tolerance = 0;
-  };
+  NAO_PARAMETER_GROUP(BallInWalk, ball_in_walk, push_reach, passing_goal_distance, shot_distance,
+                      contested_distance, passing_near, passing_far, passing_aside,
+                      passing_tolerance, passing_age, carry_to, carry_near, carry_aside,
+                      carry_tolerance);
   /** Prediction of a rolling ball. */
-  struct RollingBall {
-    double stopped_by_feet = 0;
-    double shot_speed = 0;
-    double foot_length = 0;
-  };
+  NAO_PARAMETER_GROUP(RollingBall, rolling_ball, stopped_by_feet, shot_speed, foot_length);
   /** When sightings are a ball. */
-  struct BallMemory {
-    double confirmed = 0;
-    double doubt = 0;
-    double agreement = 0;
-    double agreement_per_distance = 0;
-  };
+  NAO_PARAMETER_GROUP(BallMemory, ball_memory, confirmed, doubt, agreement, agreement_per_distance);
   /** Search for the ball. */
-  struct BallSearch {
-    double dwell = 0;
-    double scan_depression = 0;
-    double turn_rate = 0;
-    double roam_time = 0;
-    double reached = 0;
-  };
+  NAO_PARAMETER_GROUP(BallSearch, ball_search, dwell, scan_depression, turn_rate, roam_time,
+                      reached);
   /** Choice of camera and head angles. */
-  struct HeadControl {
-    double hysteresis = 0;
-    double pitch_cost = 0;
-  };
+  NAO_PARAMETER_GROUP(HeadControl, head_control, hysteresis, pitch_cost);
   /** The goalkeeper. */
-  struct Keeper {
-    double look_for_ball = 0;
-    double out = 0;
-    double block_half = 0;
-    double dive_reach = 0;
-    double dive_time = 0;
-    double block_time = 0;
-    double wide_of_post = 0;
-    double aside_speed = 0;
-    double action_pause = 0;
-  };
+  NAO_PARAMETER_GROUP(Keeper, keeper, look_for_ball, out, block_half, dive_reach, dive_time,
+                      block_time, wide_of_post, aside_speed, action_pause);
   /** Keeping a place. */
-  struct Positioner {
-    double in_place = 0;
-    double out_of_place = 0;
-    double turned = 0;
-    double turned_away = 0;
-    double search_duration = 0;
-  };
+  NAO_PARAMETER_GROUP(Positioner, positioner, in_place, out_of_place, turned, turned_away,
+                      search_duration);
   /** Other robots. */
-  struct RobotMemory {
-    double forget_robot_after = 0;
-    double same_robot = 0;
-    double stop_distance = 0;
-    double free_distance = 0;
-    double approach_gain = 0;
-    double pass_speed = 0;
-  };
+  NAO_PARAMETER_GROUP(RobotMemory, robot_memory, forget_robot_after, same_robot, stop_distance,
+                      free_distance, approach_gain, pass_speed);
   /** A player in a match. */
-  struct AutoPlayer {
-    double forget_ball = 0;
-    double ball_moved = 0;
-    double kick_off_wait = 0;
-    double free_kick_room = 0;
-    double behind_ball = 0;
-    double beside_ball = 0;
-    double ball_return = 0;
-    double told_distance = 0;
-    double clear_distance = 0;
-    double cleared_distance = 0;
-    double clear_zone = 0;
-    double from_side_line = 0;
-  };
+  NAO_PARAMETER_GROUP(AutoPlayer, auto_player, forget_ball, ball_moved, kick_off_wait,
+                      free_kick_room, behind_ball, beside_ball, ball_return, told_distance,
+                      clear_distance, cleared_distance, clear_zone, from_side_line);
   /** Going to the ball, kicking and dribbling it. */
-  struct Striker {
-    double forget_after = 0;
-    double forget_after_near = 0;
-    double near = 0;
-    double search_timeout = 0;
-    double stop_fraction = 0;
-    double kick_fraction = 0;
-    double settle_time = 0;
-    double settle_timeout = 0;
-    double strike_time = 0;
-    double look_down = 0;
-    double watch_time = 0;
-    double passing_kick_distance = 0;
-    double passing_speed = 0;
-    double push_speed = 0;
-    double target_reached = 0;
-    double behind_line = 0;
-    double tilt_error = 0;
-    double camera_height = 0;
-    double judge_distance = 0;
-    double before_ball = 0;
-    double landmark_period = 0;
-    double landmark_time = 0;
-    double landmark_distance = 0;
-    double landmark_depression = 0;
-  };
-
-  Approach approach;
-  ShotAim shot_aim;
-  BallInWalk ball_in_walk;
-  RollingBall rolling_ball;
-  BallMemory ball_memory;
-  BallSearch ball_search;
-  HeadControl head_control;
-  Keeper keeper;
-  Positioner positioner;
-  RobotMemory robot_memory;
-  AutoPlayer auto_player;
-  Striker striker;
+  NAO_PARAMETER_GROUP(Striker, striker, forget_after, forget_after_near, near, search_timeout,
+                      stop_fraction, kick_fraction, settle_time, settle_timeout, strike_time,
+                      look_down, watch_time, passing_kick_distance, passing_speed, push_speed,
+                      target_reached, behind_line, tilt_error, camera_height, judge_distance,
+                      before_ball, landmark_period, landmark_time, landmark_distance,
+                      landmark_depression);
 
   /** Reads data/play/parameters.yaml. @param robot_file  Replaces single values, if it exists.
    * @throws ModelError  if a file lacks a value that it must have, or has an unknown, negative or

@@ -1,7 +1,6 @@
 #include "daemons/referee/game_controller_referee.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "daemons/referee/ball_judge.h"
 #include "daemons/referee/places.h"

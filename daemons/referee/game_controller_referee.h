@@ -2,7 +2,6 @@
 
 #include <array>
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include "daemons/referee/game_controller_message.h"

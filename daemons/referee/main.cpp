@@ -24,23 +24,19 @@ int main(int argc, char** argv) {
   std::string state_file;
   std::string events_file;
   nao::add_robot_option(app, robots);
-  app.add_option("--model", model, "Folder of robots/ that describes robots without a model")
-      ->show_default();
-  app.add_option("--scene", options.scene, "Scene with field, goals and ball")->show_default();
+  app.add_option("--model", model, "Folder of robots/ that describes robots without a model");
+  app.add_option("--scene", options.scene, "Scene with field, goals and ball");
   app.add_option("--half-duration", options.rules.half_duration, "Duration of a half, s")
-      ->range(10.0, 3600.0)
-      ->show_default();
+      ->range(10.0, 3600.0);
   app.add_flag("--start", options.starts_by_itself,
                "Begin when all robots are there, without nao match start");
   app.add_flag("--game-controller", follows_game_controller,
                "The RoboCup GameController decides instead of nao-referee's own rules, which then "
                "only puts ball and robots in their places");
   app.add_option("--game-controller-port", game_controller_port,
-                 "UDP port of the GameController's messages; 0: any free")
-      ->show_default();
+                 "UDP port of the GameController's messages; 0: any free");
   app.add_option("--game-controller-return-port", options.return_port,
-                 "UDP port at which the GameController receives the robots' messages")
-      ->show_default();
+                 "UDP port at which the GameController receives the robots' messages");
   app.add_option("--team-numbers", team_numbers,
                  "The GameController's numbers of team 0 and team 1; messages about others are "
                  "ignored (default: of any two teams, in the order of the first message)")

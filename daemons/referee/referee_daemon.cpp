@@ -13,7 +13,6 @@
 
 #include "common/bus.h"
 #include "common/channels.h"
-#include "common/data_path.h"
 #include "common/error.h"
 #include "common/event_loop.h"
 #include "common/logger.h"
@@ -66,7 +65,7 @@ std::vector<MatchPlayer> players_of(const std::vector<RobotOption>& robots) {
 std::map<std::string, std::string> ready_postures_of(const std::vector<RobotOption>& robots) {
   std::map<std::string, std::string> postures;
   for (const RobotOption& robot : robots) {
-    const auto model = RobotModel::load(data_path() / "robots" / robot.model);
+    const auto model = RobotModel::find(robot.model);
     postures[robot.name] = model.ready_posture().name;
   }
   return postures;
@@ -199,24 +198,19 @@ void RefereeDaemon::answer_game_controller() {
 }
 
 void RefereeDaemon::subscribe() {
-  bus_.subscribe<naolcm::world_truth_t>(
-      kWorldTruthChannel, Bus::Queue::kAll,
-      [this](const naolcm::world_truth_t& truth) { handle(truth); });
-  bus_.subscribe<naolcm::match_command_t>(
-      kMatchCommandChannel, Bus::Queue::kAll,
-      [this](const naolcm::match_command_t& message) { handle(message); });
+  bus_.subscribe<naolcm::world_truth_t>(kWorldTruthChannel, Bus::Queue::kAll,
+                                        [this](const auto& truth) { handle(truth); });
+  bus_.subscribe<naolcm::match_command_t>(kMatchCommandChannel, Bus::Queue::kAll,
+                                          [this](const auto& message) { handle(message); });
   for (const RobotOption& robot : options_.robots) {
-    bus_.subscribe<naolcm::play_state_t>(
-        RobotChannels(robot.name).play_state, Bus::Queue::kLatest,
-        [this, name = robot.name](const naolcm::play_state_t& state) {
-          plays_[name] = {state, clock_()};
-        });
+    bus_.subscribe<naolcm::play_state_t>(RobotChannels(robot.name).play_state, Bus::Queue::kLatest,
+                                         [this, name = robot.name](const auto& state) {
+                                           plays_[name] = {state, clock_()};
+                                         });
     if (!game_controller_) continue;
     bus_.subscribe<naolcm::vision_state_t>(
         RobotChannels(robot.name).vision_state, Bus::Queue::kLatest,
-        [this, name = robot.name](const naolcm::vision_state_t& state) {
-          update(knowledge_[name], state);
-        });
+        [this, name = robot.name](const auto& state) { update(knowledge_[name], state); });
   }
 }
 

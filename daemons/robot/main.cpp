@@ -2,7 +2,6 @@
 
 #include "common/bus.h"
 #include "common/command_line.h"
-#include "common/data_path.h"
 #include "common/error.h"
 #include "common/event_loop.h"
 #include "common/logger.h"
@@ -43,8 +42,7 @@ int main(int argc, char** argv) {
   nao::robot::RobotOptions options;
   nao::robot::add_robot_options(app, options);
   return nao::run_program(app, common, argc, argv, [&] {
-    const nao::RobotModel model =
-        nao::RobotModel::load(nao::data_path() / "robots" / options.model);
+    const nao::RobotModel model = nao::RobotModel::find(options.model);
     if (!options.lock_step && nao::request_realtime_scheduling(nao::RealtimePriority::kControl))
       nao::logger::info("real-time scheduling granted");
     nao::EventLoop loop;

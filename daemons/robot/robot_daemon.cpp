@@ -6,7 +6,6 @@
 #include <cerrno>
 #include <cmath>
 #include <cstring>
-#include <string_view>
 #include <utility>
 
 #include "common/error.h"
@@ -74,13 +73,12 @@ void RobotDaemon::subscribe() {
   // The latest command only: an older one answers an earlier frame.
   bus_.subscribe<naolcm::joint_command_t>(
       channels_.joint_command, Bus::Queue::kLatest,
-      [this](const naolcm::joint_command_t& message) { take_joint_command(message); });
+      [this](const auto& message) { take_joint_command(message); });
   bus_.subscribe<naolcm::light_command_t>(
       channels_.light_command, Bus::Queue::kAll,
-      [this](const naolcm::light_command_t& message) { take_light_command(message); });
-  bus_.subscribe<naolcm::daemon_status_t>(
-      kDaemonStatusChannel, Bus::Queue::kAll,
-      [this](const naolcm::daemon_status_t& message) { take_status(message); });
+      [this](const auto& message) { take_light_command(message); });
+  bus_.subscribe<naolcm::daemon_status_t>(kDaemonStatusChannel, Bus::Queue::kAll,
+                                          [this](const auto& message) { take_status(message); });
 }
 
 void RobotDaemon::connect() {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <naolcm/daemon_status_t.hpp>
 #include <naolcm/joint_command_t.hpp>

@@ -6,8 +6,7 @@
 namespace nao::robot {
 
 void add_robot_options(CommandLine& app, RobotOptions& options) {
-  app.add_option("--lola", options.lola_socket, "Unix socket of the robot's interface LoLA")
-      ->show_default();
+  app.add_option("--lola", options.lola_socket, "Unix socket of the robot's interface LoLA");
   add_model_option(app, options.model);
   app.add_flag("--lock-step", options.lock_step,
                "Answer a frame only when the joint command for it has come, and count frames as "

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "common/smooth_step.h"
+#include "messages/enum_names.h"
 
 namespace nao::robot {
 namespace {
@@ -33,41 +34,17 @@ constexpr double kSittingStiffness = 0.75;
 }  // namespace
 
 std::string to_string(Phase phase) {
-  switch (phase) {
-    case Phase::kLimp:
-      return "limp";
-    case Phase::kStiffening:
-      return "getting stiff";
-    case Phase::kDriven:
-      return "driven";
-    case Phase::kSitting:
-      return "sitting down";
-    default:
-      return "ended";
-  }
+  static constexpr auto kNames =
+      std::to_array<const char*>({"limp", "getting stiff", "driven", "sitting down", "ended"});
+  return name_in(kNames, phase);
 }
 
 std::string to_string(Cause cause) {
-  switch (cause) {
-    case Cause::kFoundStiff:
-      return "it was stiff when the program connected";
-    case Cause::kEnding:
-      return "the program ends";
-    case Cause::kButton:
-      return "the chest button was pressed";
-    case Cause::kLinkLost:
-      return "no joint commands";
-    case Cause::kTilt:
-      return "it is tilted too far";
-    case Cause::kBatteryLow:
-      return "the battery is low";
-    case Cause::kHeat:
-      return "a motor is too hot";
-    case Cause::kDeadMotor:
-      return "a motor does not answer";
-    default:
-      return "";
-  }
+  static constexpr auto kNames = std::to_array<const char*>(
+      {"", "it was stiff when the program connected", "the program ends",
+       "the chest button was pressed", "no joint commands", "it is tilted too far",
+       "the battery is low", "a motor is too hot", "a motor does not answer"});
+  return name_in(kNames, cause);
 }
 
 Safety::Safety(const RobotModel& model, const LolaMap& map, double period, bool starts_itself)

@@ -9,7 +9,6 @@
 
 #include <array>
 #include <csignal>
-#include <cstring>
 #include <string>
 #include <vector>
 
@@ -116,7 +115,7 @@ std::string watch(Child& child, int signals) {
 }
 
 int run(const RobotOptions& options, const std::vector<std::string>& arguments) {
-  const RobotModel model = RobotModel::load(data_path() / "robots" / options.model);
+  const RobotModel model = RobotModel::find(options.model);
   sigset_t signals;
   sigemptyset(&signals);
   for (const int signal : {SIGINT, SIGTERM, SIGCHLD}) sigaddset(&signals, signal);

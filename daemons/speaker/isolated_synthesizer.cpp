@@ -10,7 +10,6 @@
 #include <cstring>
 #include <exception>
 #include <string>
-#include <utility>
 
 #include "common/logger.h"
 

@@ -58,7 +58,7 @@ SpeakerDaemon::SpeakerDaemon(Bus& bus, Synthesizer& synthesizer,
       // Numbers that no earlier speaker with the same process id has used.
       last_light_id_(wall_utime()) {
   bus_.subscribe<naolcm::speech_command_t>(
-      channels_.speech_command, Bus::Queue::kAll, [this](const naolcm::speech_command_t& message) {
+      channels_.speech_command, Bus::Queue::kAll, [this](const auto& message) {
         requests_.push_back({message.source, message.command_id, to_speech_command(message)});
       });
   publish_status(monotonic_seconds());

@@ -2,7 +2,6 @@
 
 #include "common/bus.h"
 #include "common/command_line.h"
-#include "common/data_path.h"
 #include "common/event_loop.h"
 #include "common/logger.h"
 #include "common/program.h"
@@ -24,18 +23,16 @@ int nao::speaker::run_speaker(int argc, char** argv) {
   nao::add_model_option(app, model_name);
   app.add_option("--output", output,
                  "Sound on this host: none, alsa, alsa:DEVICE, or auto: ALSA's default device if "
-                 "there is one")
-      ->show_default();
+                 "there is one");
   app.add_option("--language", options.language, "Language of texts that state none, such as de")
       ->check([](const std::string& tag) {
         return nao::find_speech_language(tag).empty() ? "'" + tag + "' cannot be spoken"
                                                       : std::string();
-      })
-      ->show_default();
+      });
   return nao::run_program(app, common, argc, argv, [&] {
     options.robot = common.robot;
     options.language = nao::find_speech_language(options.language);
-    const auto model = nao::RobotModel::load(nao::data_path() / "robots" / model_name);
+    const auto model = nao::RobotModel::find(model_name);
     for (const nao::RobotLight& light : nao::load_robot_lights(model)) {
       if (light.is_eye) options.eyes.push_back(light.name);
     }

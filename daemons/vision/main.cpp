@@ -49,9 +49,7 @@ int main(int argc, char** argv) {
       "--request", options.request_camera,
       "Request images of this camera, or of any: the robot's first (default: process what others "
       "request)");
-  app.add_option("--rate", options.rate, "Images a second of --request, 1 to 30")
-      ->show_default()
-      ->range(1.0, 30.0);
+  app.add_option("--rate", options.rate, "Images a second of --request, 1 to 30")->range(1.0, 30.0);
   std::vector<double> start_pose;
   app.add_option(
          "--start-pose", start_pose,
@@ -60,7 +58,7 @@ int main(int argc, char** argv) {
       ->separated_by(',')
       ->count(3);
   std::string scene_name = "soccer";
-  app.add_option("--scene", scene_name, "Scene whose field the robot is on")->show_default();
+  app.add_option("--scene", scene_name, "Scene whose field the robot is on");
   return nao::run_program(app, common, argc, argv, [&] {
     options.robot = common.robot;
     const auto model = nao::RobotModel::load(nao::data_path() / "robots" / model_name);

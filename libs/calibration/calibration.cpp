@@ -1,7 +1,6 @@
 #include "calibration/calibration.h"
 
 #include <array>
-#include <cmath>
 #include <cstdio>
 
 #include "common/constants.h"

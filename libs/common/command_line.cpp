@@ -1,8 +1,10 @@
 #include "common/command_line.h"
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <deque>
 #include <iostream>
+#include <type_traits>
 #include <utility>
 
 namespace nao {
@@ -44,15 +46,21 @@ bool refuse_unknown_subcommand(CLI::App& program) {
   return true;
 }
 
-}  // namespace
-
-CommandLine::Option* CommandLine::Option::show_default() {
-  option_.capture_default_str();
-  return this;
+// Whether a default is worth showing: no text, no list and no finite number stand for "not given".
+template <class Variable>
+bool has_value(const Variable& variable) {
+  if constexpr (std::is_floating_point_v<Variable>) {
+    return std::isfinite(variable);
+  } else if constexpr (!std::is_integral_v<Variable>) {
+    return !variable.empty();
+  }
+  return true;
 }
 
+}  // namespace
+
 CommandLine::Option* CommandLine::Option::required() {
-  option_.required();
+  option_.required()->default_str("");
   return this;
 }
 
@@ -93,6 +101,8 @@ CommandLine::Option* CommandLine::Option::range(double least, double greatest) {
 
 CommandLine::Option* CommandLine::Option::positive() {
   option_.check(CLI::PositiveNumber);
+  // Stands for "not given", too.
+  if (option_.get_default_str() == "0") option_.default_str("");
   return this;
 }
 
@@ -139,61 +149,28 @@ CommandLine::Option* CommandLine::keep(CLI::Option* option) {
 }
 
 template <class Variable>
-CommandLine::Option* CommandLine::bind(const std::string& name, Variable& variable,
-                                       const std::string& help) {
-  return keep(parts_->app.add_option(name, variable, help));
+CommandLine::Option* CommandLine::add_option(const std::string& name, Variable& variable,
+                                             const std::string& help) {
+  CLI::Option* option = parts_->app.add_option(name, variable, help);
+  if (has_value(variable) && help.find("default:") == std::string::npos) {
+    option->capture_default_str();
+  }
+  return keep(option);
 }
 
-CommandLine::Option* CommandLine::add_option(const std::string& name, std::string& variable,
-                                             const std::string& help) {
-  return bind(name, variable, help);
-}
-
-CommandLine::Option* CommandLine::add_option(const std::string& name, uint16_t& variable,
-                                             const std::string& help) {
-  return bind(name, variable, help);
-}
-
-CommandLine::Option* CommandLine::add_option(const std::string& name, int32_t& variable,
-                                             const std::string& help) {
-  return bind(name, variable, help);
-}
-
-CommandLine::Option* CommandLine::add_option(const std::string& name, uint32_t& variable,
-                                             const std::string& help) {
-  return bind(name, variable, help);
-}
-
-CommandLine::Option* CommandLine::add_option(const std::string& name, int64_t& variable,
-                                             const std::string& help) {
-  return bind(name, variable, help);
-}
-
-CommandLine::Option* CommandLine::add_option(const std::string& name, uint64_t& variable,
-                                             const std::string& help) {
-  return bind(name, variable, help);
-}
-
-CommandLine::Option* CommandLine::add_option(const std::string& name, double& variable,
-                                             const std::string& help) {
-  return bind(name, variable, help);
-}
-
-CommandLine::Option* CommandLine::add_option(const std::string& name,
-                                             std::vector<std::string>& variable,
-                                             const std::string& help) {
-  return bind(name, variable, help);
-}
-
-CommandLine::Option* CommandLine::add_option(const std::string& name, std::vector<int>& variable,
-                                             const std::string& help) {
-  return bind(name, variable, help);
-}
-
-CommandLine::Option* CommandLine::add_option(const std::string& name, std::vector<double>& variable,
-                                             const std::string& help) {
-  return bind(name, variable, help);
-}
+#define NAO_OPTION_TYPE(Variable)                                                      \
+  template CommandLine::Option* CommandLine::add_option(const std::string&, Variable&, \
+                                                        const std::string&);
+NAO_OPTION_TYPE(std::string)
+NAO_OPTION_TYPE(uint16_t)
+NAO_OPTION_TYPE(int32_t)
+NAO_OPTION_TYPE(uint32_t)
+NAO_OPTION_TYPE(int64_t)
+NAO_OPTION_TYPE(uint64_t)
+NAO_OPTION_TYPE(double)
+NAO_OPTION_TYPE(std::vector<std::string>)
+NAO_OPTION_TYPE(std::vector<int>)
+NAO_OPTION_TYPE(std::vector<double>)
 
 CommandLine::Option* CommandLine::add_flag(const std::string& name, bool& variable,
                                            const std::string& help) {

@@ -1,8 +1,6 @@
 #pragma once
 
-#include <cstdint>
 #include <functional>
-#include <initializer_list>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -35,8 +33,6 @@ class CommandLine {
    public:
     explicit Option(CLI::Option& option) : option_(option) {}
 
-    /** The help text shows the variable's present value. */
-    Option* show_default();
     Option* required();
     /** This environment variable gives the value where the command line does not. */
     Option* from_environment(const std::string& variable);
@@ -75,19 +71,12 @@ class CommandLine {
   std::string name() const;
 
   /** Adds an option ("--seeds") or argument ("seeds") that fills a variable; one of a vector may be
-   * repeated, and takes several values unless limited by count(). */
-  Option* add_option(const std::string& name, std::string& variable, const std::string& help);
-  Option* add_option(const std::string& name, uint16_t& variable, const std::string& help);
-  Option* add_option(const std::string& name, int32_t& variable, const std::string& help);
-  Option* add_option(const std::string& name, uint32_t& variable, const std::string& help);
-  Option* add_option(const std::string& name, int64_t& variable, const std::string& help);
-  Option* add_option(const std::string& name, uint64_t& variable, const std::string& help);
-  Option* add_option(const std::string& name, double& variable, const std::string& help);
-  Option* add_option(const std::string& name, std::vector<std::string>& variable,
-                     const std::string& help);
-  Option* add_option(const std::string& name, std::vector<int>& variable, const std::string& help);
-  Option* add_option(const std::string& name, std::vector<double>& variable,
-                     const std::string& help);
+   * repeated, and takes several values unless limited by count(). The help text shows the
+   * variable's present value, unless the option is required or `help` says what the default is.
+   * @tparam Variable  std::string, double, an integer of 16 to 64 bits, or a vector of std::string,
+   * int or double. */
+  template <class Variable>
+  Option* add_option(const std::string& name, Variable& variable, const std::string& help);
   /** Adds a flag that sets a variable; "!--no-follow" clears it. */
   Option* add_flag(const std::string& name, bool& variable, const std::string& help);
   /** Adds a flag that prints this and ends the program. */
@@ -116,8 +105,6 @@ class CommandLine {
   struct Parts;
 
   explicit CommandLine(CLI::App& app);
-  template <class Variable>
-  Option* bind(const std::string& name, Variable& variable, const std::string& help);
   Option* keep(CLI::Option* option);
 
   std::unique_ptr<Parts> parts_;

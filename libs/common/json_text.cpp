@@ -1,7 +1,5 @@
 #include "common/json_text.h"
 
-#include <utility>
-
 namespace nao {
 
 nlohmann::json parse_json(std::string_view text) {

@@ -61,6 +61,11 @@ void JsonWriter::end() {
   is_first_ = false;
 }
 
+std::string JsonWriter::take() {
+  while (!ends_.empty()) end();
+  return std::move(text_);
+}
+
 void JsonWriter::add(const std::string& key, const std::string& value) {
   begin_value(key);
   write_string(value);

@@ -34,11 +34,9 @@ class JsonWriter {
   /** A value that is JSON already. */
   void add_json(const std::string& key, const std::string& json);
 
-  /** The value on one line, keys in the order of the calls. Bytes that are not UTF-8 become U+FFFD.
-   */
-  const std::string& text() const { return text_; }
-  /** As text(), without a copy; nothing can be added afterwards. */
-  std::string take() { return std::move(text_); }
+  /** Ends what is unfinished. @return The value on one line, keys in the order of the calls; bytes
+   * that are not UTF-8 are U+FFFD. Nothing can be added afterwards. */
+  std::string take();
 
  private:
   /** Writes what comes before a value: comma and key. */

@@ -3,33 +3,17 @@
 #include <algorithm>
 #include <filesystem>
 #include <string>
-#include <vector>
 
+#include "common/parameter_group.h"
 #include "common/yaml_entry.h"
 
 namespace nao {
 
-/** A number of a struct of groups, and its name in a YAML file: "GROUP.KEY". */
-template <class Parameters>
-struct NamedParameter {
-  std::string name;
-  double& (*in)(Parameters&);
-
-  /** Its entry in a file. Errors report one that the file does not have. */
-  YamlEntry entry(const YamlEntry& root) const {
-    const size_t dot = name.find('.');
-    return root.at(name.substr(0, dot)).at(name.substr(dot + 1));
-  }
-};
-
-template <class Parameters>
-using ParameterTable = std::vector<NamedParameter<Parameters>>;
-
-/** An element of a ParameterTable: the name in the file is that of the member. */
-#define NAO_PARAMETER(Parameters, group, key)                                  \
-  {                                                                            \
-#group "." #key, [](Parameters & all) -> double& { return all.group.key; } \
-  }
+/** Entry "GROUP.KEY" of a file. Errors report one that the file does not have. */
+inline YamlEntry parameter_entry(const YamlEntry& root, const std::string& name) {
+  const size_t dot = name.find('.');
+  return root.at(name.substr(0, dot)).at(name.substr(dot + 1));
+}
 
 /** Calls `read` with each parameter of a file and its entry, in the file's order. An unknown name
  * is an error: a misspelled parameter would silently keep its default. */
@@ -60,7 +44,7 @@ Parameters load_parameters(const std::filesystem::path& file,
   };
   const YamlEntry common = YamlEntry::load(file);
   read(common);
-  for (const auto& parameter : table) (void)parameter.entry(common);
+  for (const auto& parameter : table) (void)parameter_entry(common, parameter.name);
   if (std::filesystem::exists(robot_file)) read(YamlEntry::load(robot_file));
   return parameters;
 }

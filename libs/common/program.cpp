@@ -20,27 +20,24 @@ const char* version() {
 
 void add_log_option(CommandLine& app, CommonOptions& options) {
   app.add_option("--log-level", options.log_level, "Minimum severity of printed log lines")
-      ->one_of({"trace", "debug", "info", "warning", "error"})
-      ->show_default();
+      ->one_of({"trace", "debug", "info", "warning", "error"});
 }
 
 void add_bus_options(CommandLine& app, CommonOptions& options) {
   app.add_version_flag("--version", app.name() + " " + version());
   app.add_option("--lcm-url", options.lcm_url, "URL of the message bus")
-      ->from_environment("LCM_DEFAULT_URL")
-      ->show_default();
+      ->from_environment("LCM_DEFAULT_URL");
   add_log_option(app, options);
 }
 
 void add_common_options(CommandLine& app, CommonOptions& options) {
   add_bus_options(app, options);
   app.add_option("--robot", options.robot, "Name of the robot: prefix of its channels")
-      ->check(fault_of_robot_name, "NAME")
-      ->show_default();
+      ->check(fault_of_robot_name, "NAME");
 }
 
 void add_model_option(CommandLine& app, std::string& model) {
-  app.add_option("--model", model, "Folder of robots/ that describes the robot")->show_default();
+  app.add_option("--model", model, "Folder of robots/ that describes the robot");
 }
 
 int run_program(CommandLine& app, const CommonOptions& common, int argc, char** argv,

@@ -90,8 +90,7 @@ void add_robot_option(CommandLine& app, std::vector<std::string>& texts) {
               return error.what();
             }
           },
-          "NAME[:MODEL[:TEAM:NUMBER]]")
-      ->show_default();
+          "NAME[:MODEL[:TEAM:NUMBER]]");
 }
 
 }  // namespace nao

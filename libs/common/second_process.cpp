@@ -28,8 +28,7 @@ SecondProcess::SecondProcess(Bus& bus, const std::string& program, const std::st
   (void)gethostname(own_host.data(), own_host.size() - 1);
   bus.subscribe<naolcm::daemon_status_t>(
       kDaemonStatusChannel, Bus::Queue::kAll,
-      [this, &bus, program, robot,
-       host = std::string(own_host.data())](const naolcm::daemon_status_t& status) {
+      [this, &bus, program, robot, host = std::string(own_host.data())](const auto& status) {
         const bool is_own = status.host == host && status.process_id == getpid();
         if (status.program != program || status.robot != robot || is_own) return;
         const bool is_new = describe().empty();

@@ -3,7 +3,6 @@
 #include "common/bus.h"
 
 #include <algorithm>
-#include <exception>
 
 #include "inspection/foxglove_schemas.h"
 #include "messages/named_joints.h"

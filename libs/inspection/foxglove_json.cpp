@@ -148,8 +148,6 @@ std::string frame_transforms_json(int64_t utime, const std::vector<NamedTransfor
     add_quaternion(json, "rotation", Eigen::Quaterniond(transform.pose.linear()));
     json.end();
   }
-  json.end();
-  json.end();
   return json.take();
 }
 
@@ -177,8 +175,6 @@ std::string scene_update_json(int64_t utime, const std::vector<SceneEntity>& ent
     add_empty_list(json, "models");
     json.end();
   }
-  json.end();
-  json.end();
   return json.take();
 }
 

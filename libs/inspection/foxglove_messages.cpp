@@ -72,8 +72,6 @@ std::string joint_states_json(const naolcm::sensor_state_t& state) {
     add_if_finite(json, "effort", state.joint_torque[i]);
     json.end();
   }
-  json.end();
-  json.end();
   return json.take();
 }
 
@@ -91,7 +89,6 @@ std::string odometry_json(const naolcm::robot_state_t& state, const std::string&
   add_vector(json, "linear_velocity",
              heading_in_torso * Eigen::Vector3d(state.velocity_torso_in_heading));
   add_vector(json, "angular_velocity", Eigen::Vector3d(state.angular_velocity_torso));
-  json.end();
   return json.take();
 }
 
@@ -102,7 +99,6 @@ std::string compressed_image_json(const naolcm::image_t& image, const std::strin
   json.add("frame_id", frame);
   json.add_base64("data", image.data);
   json.add("format", image.format);
-  json.end();
   return json.take();
 }
 
@@ -123,7 +119,6 @@ std::string camera_calibration_json(const naolcm::image_t& image, const std::str
   json.add("K", intrinsics.data(), intrinsics.size());
   json.add("R", rectification.data(), rectification.size());
   json.add("P", projection.data(), projection.size());
-  json.end();
   return json.take();
 }
 

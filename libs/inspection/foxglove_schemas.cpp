@@ -47,8 +47,6 @@ Schema object(const std::string& title, const Properties& required,
   json.end();
   json.begin_array("required");
   for (const auto& [name, schema] : required) json.add("", name);
-  json.end();
-  json.end();
   return json.take();
 }
 

@@ -167,7 +167,6 @@ std::optional<std::string> message_to_json(const MessageLayout& layout,
   json.begin_object();
   JsonMessageWriter writer(json);
   if (!walk_message(layout, message, writer)) return {};
-  json.end();
   return json.take();
 }
 
@@ -178,7 +177,6 @@ std::string json_schema_of(const MessageLayout& layout) {
   json.add("title", "naolcm." + layout.name);
   json.add("description", layout.description);
   add_schema_fields(json, layout);
-  json.end();
   return json.take();
 }
 

@@ -1,7 +1,6 @@
 #include "kinematics/numeric_leg_solver.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "common/linear_solver.h"
 

@@ -2,10 +2,10 @@
 
 #include <array>
 #include <cstddef>
-#include <cstdint>
 #include <optional>
-#include <span>
 #include <string>
+#include <tuple>
+#include <utility>
 
 namespace nao {
 
@@ -71,56 +71,43 @@ struct LolaCommand {
   std::optional<std::array<bool, 2>> sonar;
 };
 
-/** Calls `visit(key, values)` for every key of a state, in the order of the frame. */
-template <class State, class Visit>
-  requires std::is_same_v<std::remove_const_t<State>, LolaState>
-void for_each_field(State& state, Visit&& visit) {
-  visit("Position", state.position);
-  visit("Stiffness", state.stiffness);
-  visit("Temperature", state.temperature);
-  visit("Current", state.current);
-  visit("Status", state.status);
-  visit("Battery", state.battery);
-  visit("Accelerometer", state.accelerometer);
-  visit("Gyroscope", state.gyroscope);
-  visit("Angles", state.angles);
-  visit("Sonar", state.sonar);
-  visit("FSR", state.fsr);
-  visit("Touch", state.touch);
-  visit("RobotConfig", state.robot_config);
+/** Keys and members, in the order of the frame. */
+inline constexpr auto kLolaStateFields = std::tuple(
+    std::pair("Position", &LolaState::position), std::pair("Stiffness", &LolaState::stiffness),
+    std::pair("Temperature", &LolaState::temperature), std::pair("Current", &LolaState::current),
+    std::pair("Status", &LolaState::status), std::pair("Battery", &LolaState::battery),
+    std::pair("Accelerometer", &LolaState::accelerometer),
+    std::pair("Gyroscope", &LolaState::gyroscope), std::pair("Angles", &LolaState::angles),
+    std::pair("Sonar", &LolaState::sonar), std::pair("FSR", &LolaState::fsr),
+    std::pair("Touch", &LolaState::touch), std::pair("RobotConfig", &LolaState::robot_config));
+inline constexpr auto kLolaCommandFields = std::tuple(
+    std::pair("Position", &LolaCommand::position), std::pair("Stiffness", &LolaCommand::stiffness),
+    std::pair("REar", &LolaCommand::right_ear), std::pair("LEar", &LolaCommand::left_ear),
+    std::pair("Chest", &LolaCommand::chest), std::pair("LEye", &LolaCommand::left_eye),
+    std::pair("REye", &LolaCommand::right_eye), std::pair("LFoot", &LolaCommand::left_foot),
+    std::pair("RFoot", &LolaCommand::right_foot), std::pair("Skull", &LolaCommand::skull),
+    std::pair("Sonar", &LolaCommand::sonar));
+
+constexpr const auto& fields_of(const LolaState& /*state*/) {
+  return kLolaStateFields;
+}
+constexpr const auto& fields_of(const LolaCommand& /*command*/) {
+  return kLolaCommandFields;
 }
 
-/** Calls `visit(key, optional values)` for every key of a command. */
-template <class Command, class Visit>
-  requires std::is_same_v<std::remove_const_t<Command>, LolaCommand>
-void for_each_field(Command& command, Visit&& visit) {
-  visit("Position", command.position);
-  visit("Stiffness", command.stiffness);
-  visit("REar", command.right_ear);
-  visit("LEar", command.left_ear);
-  visit("Chest", command.chest);
-  visit("LEye", command.left_eye);
-  visit("REye", command.right_eye);
-  visit("LFoot", command.left_foot);
-  visit("RFoot", command.right_foot);
-  visit("Skull", command.skull);
-  visit("Sonar", command.sonar);
+/** Calls `visit(key, values)` for every key of a state or command, in the order of the frame; the
+ * values of a command are optional. */
+template <class Frame, class Visit>
+void for_each_field(Frame& frame, Visit&& visit) {
+  std::apply([&](const auto&... field) { (visit(field.first, frame.*field.second), ...); },
+             fields_of(frame));
 }
 
 /** Calls `visit(values of a, values of b)` for every key of two commands. */
 template <class Visit>
 void for_each_pair(const LolaCommand& a, LolaCommand& b, Visit&& visit) {
-  visit(a.position, b.position);
-  visit(a.stiffness, b.stiffness);
-  visit(a.right_ear, b.right_ear);
-  visit(a.left_ear, b.left_ear);
-  visit(a.chest, b.chest);
-  visit(a.left_eye, b.left_eye);
-  visit(a.right_eye, b.right_eye);
-  visit(a.left_foot, b.left_foot);
-  visit(a.right_foot, b.right_foot);
-  visit(a.skull, b.skull);
-  visit(a.sonar, b.sonar);
+  std::apply([&](const auto&... field) { (visit(a.*field.second, b.*field.second), ...); },
+             kLolaCommandFields);
 }
 
 }  // namespace nao

@@ -1,5 +1,7 @@
 #include "messages/command.h"
 
+#include "messages/enum_names.h"
+
 namespace nao {
 namespace {
 
@@ -13,45 +15,16 @@ constexpr size_t kMaxSourceLength = 64;
 }  // namespace
 
 const char* to_string(CommandKind kind) {
-  switch (kind) {
-    case CommandKind::kWalk:
-      return "walk";
-    case CommandKind::kMoveTo:
-      return "move-to";
-    case CommandKind::kPosture:
-      return "posture";
-    case CommandKind::kJointChange:
-      return "joint-change";
-    case CommandKind::kAction:
-      return "action";
-    case CommandKind::kStop:
-      return "stop";
-    case CommandKind::kPlay:
-      return "play";
-    case CommandKind::kSpeech:
-      return "speech";
-    case CommandKind::kLight:
-      return "light";
-    case CommandKind::kMatch:
-      return "match";
-  }
-  return "unknown";
+  if (kind == CommandKind::kMatch) return "match";
+  static constexpr auto kNames = std::to_array<const char*>(
+      {"walk", "move-to", "posture", "joint-change", "action", "stop", "play", "speech", "light"});
+  return name_in(kNames, kind);
 }
 
 const char* to_string(ResultStatus status) {
-  switch (status) {
-    case ResultStatus::kAccepted:
-      return "accepted";
-    case ResultStatus::kRefused:
-      return "refused";
-    case ResultStatus::kDone:
-      return "done";
-    case ResultStatus::kInterrupted:
-      return "interrupted";
-    case ResultStatus::kFailed:
-      return "failed";
-  }
-  return "unknown";
+  static constexpr auto kNames =
+      std::to_array<const char*>({"accepted", "refused", "done", "interrupted", "failed"});
+  return name_in(kNames, status);
 }
 
 std::string quoted(const std::string& text) {

@@ -86,7 +86,7 @@ const std::string& channel_of(const Command& command, const RobotChannels& chann
 CommandPublisher::CommandPublisher(Bus& bus, const RobotChannels& channels)
     : bus_(bus), channels_(channels) {
   bus_.subscribe<naolcm::motion_state_t>(channels_.motion_state, Bus::Queue::kLatest,
-                                         [this](const naolcm::motion_state_t& state) {
+                                         [this](const auto& state) {
                                            robot_utime_ = state.utime;
                                            if (is_napping_)
                                              bus_.set_awake(channels_.motion_state, false);

@@ -3,26 +3,17 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/joined.h"
 #include "messages/command.h"
 
 namespace nao {
-namespace {
-
-std::string join(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
-}
-
-}  // namespace
-
 std::optional<Reason> check(const LightCommand& command,
                             const std::vector<std::string>& known_names) {
   if (command.light_names.empty()) return Reason("lights-missing");
   for (size_t i = 0; i < command.light_names.size(); ++i) {
     const std::string& name = command.light_names[i];
     if (std::find(known_names.begin(), known_names.end(), name) == known_names.end()) {
-      return Reason("light-unknown", {quoted(name), join(known_names)});
+      return Reason("light-unknown", {quoted(name), joined(known_names)});
     }
     // Written so that NaN fails, too.
     const LightColor& rgb = command.light_rgb[i];

@@ -1,5 +1,7 @@
 #include "messages/match_command.h"
 
+#include "messages/enum_names.h"
+
 namespace nao {
 namespace {
 
@@ -11,8 +13,7 @@ static_assert(match_command_t::OPERATION_NEW_MATCH == static_cast<int>(MatchOper
 }  // namespace
 
 std::string_view to_string(MatchOperation operation) {
-  const auto index = static_cast<size_t>(operation);
-  return index < kMatchOperationNames.size() ? kMatchOperationNames[index] : "unknown";
+  return name_in(kMatchOperationNames, operation);
 }
 
 bool needs_team(MatchOperation operation) {

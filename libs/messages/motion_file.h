@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <naolcm/keyframe_motion_t.hpp>
 #include <naolcm/motion_file_command_t.hpp>
 #include <naolcm/motion_file_result_t.hpp>

@@ -4,6 +4,7 @@
 #include <cctype>
 #include <cstdio>
 
+#include "common/joined.h"
 #include "messages/command.h"
 #include "messages/utf8.h"
 
@@ -27,15 +28,6 @@ std::string name_of(char32_t code) {
   std::array<char, 16> name{};
   std::snprintf(name.data(), name.size(), "U+%04X", static_cast<unsigned>(code));
   return name.data();
-}
-
-std::string join_languages() {
-  std::string text;
-  for (const std::string_view language : kSpeechLanguages) {
-    text += text.empty() ? "" : ", ";
-    text += language;
-  }
-  return text;
 }
 
 std::optional<Reason> check_text(const std::string& text) {
@@ -80,7 +72,7 @@ std::optional<Reason> check(const SpeechCommand& command) {
   if (command.operation == Operation::kStop) return std::nullopt;
   if (auto fault = check_text(command.text)) return fault;
   if (!command.language.empty() && find_speech_language(command.language).empty()) {
-    return Reason("language-unknown", {quoted(command.language), join_languages()});
+    return Reason("language-unknown", {quoted(command.language), joined(kSpeechLanguages)});
   }
   // Written so that NaN fails, too.
   if (!(command.volume >= 0 && command.volume <= 1)) {

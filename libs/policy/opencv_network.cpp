@@ -7,18 +7,11 @@
 #include <opencv2/dnn.hpp>
 
 #include "common/error.h"
+#include "common/processor_time.h"
 #include "policy/policy_network.h"
 
 namespace nao {
 namespace {
-
-/** Processor time of this thread, s: how long a machine is busy with other things must not count
- * against a network, nor change what a run in lock-step does. */
-double thread_seconds() {
-  timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
 
 /** The beginning of a text, at most 300 characters, without line breaks. */
 std::string on_one_line(std::string text) {
@@ -61,6 +54,7 @@ class OpenCvNetwork : public PolicyNetwork {
   }
 
   double run(const std::vector<float>& observation, std::vector<float>& action) override {
+    // How busy a machine is must not change what a run in lock-step does.
     const double begin = thread_seconds();
     std::copy(observation.begin(), observation.end(), input_.ptr<float>());
     net_.setInput(input_);

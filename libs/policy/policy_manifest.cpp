@@ -1,6 +1,5 @@
 #include "policy/policy_manifest.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>

@@ -7,6 +7,7 @@
 
 #include "robot_import/repair_log.h"
 #include "robot_import/urdf_values.h"
+#include "robot_model/child_elements.h"
 
 namespace nao {
 namespace {
@@ -140,8 +141,7 @@ std::string with_hands_of_one_motor(const std::string& text, const RobotModel& m
   document.Parse(text.c_str());
   RepairLog log{file, {}};
   TiXmlElement* robot = document.FirstChildElement("robot");
-  for (TiXmlElement* element = robot->FirstChildElement("joint"); element != nullptr;
-       element = element->NextSiblingElement("joint")) {
+  for (TiXmlElement* element : child_elements(*robot, "joint")) {
     const int joint = model.find_joint(element->Attribute("name"));
     const int motor = joint < 0 ? -1 : model.motor_of(joint);
     const auto follower = followers.find(motor);

@@ -12,6 +12,7 @@
 #include "robot_import/repair_log.h"
 #include "robot_import/robot_structure.h"
 #include "robot_import/urdf_values.h"
+#include "robot_model/child_elements.h"
 
 namespace nao {
 namespace {
@@ -59,8 +60,7 @@ class LegNumbers {
 
  private:
   TiXmlElement* limit_of(int motor) {
-    for (TiXmlElement* element = robot_.FirstChildElement("joint"); element != nullptr;
-         element = element->NextSiblingElement("joint")) {
+    for (TiXmlElement* element : child_elements(robot_, "joint")) {
       if (element->Attribute("name") == model_.motor_joint(motor).name) {
         return element->FirstChildElement("limit");
       }

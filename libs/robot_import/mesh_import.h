@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <optional>
 #include <set>
-#include <string>
 #include <vector>
 
 #include "rendering/mesh.h"

@@ -9,6 +9,7 @@
 #include "common/constants.h"
 #include "robot_import/repair_log.h"
 #include "robot_import/urdf_values.h"
+#include "robot_model/child_elements.h"
 
 namespace nao {
 namespace {
@@ -74,8 +75,7 @@ class Numbers {
 
  private:
   TiXmlElement* find(const char* kind, const std::string& name) {
-    for (TiXmlElement* element = robot_.FirstChildElement(kind); element != nullptr;
-         element = element->NextSiblingElement(kind)) {
+    for (TiXmlElement* element : child_elements(robot_, kind)) {
       if (element->Attribute("name") == name) return element;
     }
     return nullptr;

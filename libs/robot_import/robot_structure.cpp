@@ -6,7 +6,6 @@
 #include <limits>
 #include <sstream>
 
-#include "common/error.h"
 #include "kinematics/support_polygon.h"
 
 namespace nao {

@@ -2,7 +2,6 @@
 
 #include <Eigen/Geometry>
 #include <array>
-#include <string>
 #include <vector>
 
 #include "robot_import/finding.h"

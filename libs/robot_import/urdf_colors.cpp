@@ -6,6 +6,7 @@
 #include <string>
 
 #include "robot_import/urdf_values.h"
+#include "robot_model/child_elements.h"
 
 namespace nao {
 namespace {
@@ -34,17 +35,14 @@ std::map<const TiXmlElement*, Color> read_colors(const TiXmlElement& robot) {
     if (name == nullptr) return;
     if (const auto color = color_of(*material)) by_name.emplace(name, *color);
   };
-  for (const TiXmlElement* material = robot.FirstChildElement("material"); material != nullptr;
-       material = material->NextSiblingElement("material")) {
+  for (const TiXmlElement* material : child_elements(robot, "material")) {
     remember(material);
   }
   std::map<const TiXmlElement*, Color> colors;
   // A visual may name the material of another one.
   for (const bool is_second : {false, true}) {
-    for (const TiXmlElement* link = robot.FirstChildElement("link"); link != nullptr;
-         link = link->NextSiblingElement("link")) {
-      for (const TiXmlElement* visual = link->FirstChildElement("visual"); visual != nullptr;
-           visual = visual->NextSiblingElement("visual")) {
+    for (const TiXmlElement* link : child_elements(robot, "link")) {
+      for (const TiXmlElement* visual : child_elements(*link, "visual")) {
         const TiXmlElement* material = visual->FirstChildElement("material");
         if (material == nullptr) continue;
         remember(material);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "robot_import/urdf_values.h"
+#include "robot_model/child_elements.h"
 
 namespace nao {
 namespace {
@@ -97,8 +98,7 @@ class DialectRepair {
       log_.fail(&element, "is the input of xacro",
                 "run `xacro FILE.xacro > FILE.urdf` and import that");
     }
-    for (const TiXmlElement* child = element.FirstChildElement(); child != nullptr;
-         child = child->NextSiblingElement()) {
+    for (const TiXmlElement* child : child_elements(element)) {
       check_xacro(*child, is_in_tree);
     }
   }
@@ -107,8 +107,7 @@ class DialectRepair {
   void clean(TiXmlElement& element, const std::string& owner) {
     const std::string kind = element.Value();
     const auto known = known_elements().find(kind);
-    for (TiXmlElement* child = element.FirstChildElement(); child != nullptr;) {
-      TiXmlElement* next = child->NextSiblingElement();
+    for (TiXmlElement* child : child_elements(element)) {
       const std::string name = child->Value();
       if (known != known_elements().end() && known->second.count(name) == 0) {
         if (is_xacro(name)) {
@@ -128,7 +127,6 @@ class DialectRepair {
         }
         clean(*child, is_owner ? name + " " + (of == nullptr ? "" : of) : owner);
       }
-      child = next;
     }
     repair_numbers(element, owner);
     for (const char* name : {"name", "link", "joint"}) repair_name(element, name);
@@ -175,8 +173,7 @@ class DialectRepair {
   void remove_duplicates(TiXmlElement& robot) {
     std::map<std::string, TiXmlElement*> links;
     std::set<std::string> joints;
-    for (TiXmlElement* element = robot.FirstChildElement(); element != nullptr;) {
-      TiXmlElement* next = element->NextSiblingElement();
+    for (TiXmlElement* element : child_elements(robot)) {
       const std::string kind = element->Value();
       const std::string name =
           element->Attribute("name") == nullptr ? "" : element->Attribute("name");
@@ -193,11 +190,9 @@ class DialectRepair {
                   "it is left out");
         robot.RemoveChild(element);
       }
-      element = next;
     }
     // Joints of links that are not there.
-    for (TiXmlElement* joint = robot.FirstChildElement("joint"); joint != nullptr;) {
-      TiXmlElement* next = joint->NextSiblingElement("joint");
+    for (TiXmlElement* joint : child_elements(robot, "joint")) {
       for (const char* end : {"parent", "child"}) {
         const TiXmlElement* element = joint->FirstChildElement(end);
         const char* link = element == nullptr ? nullptr : element->Attribute("link");
@@ -209,7 +204,6 @@ class DialectRepair {
         robot.RemoveChild(joint);
         break;
       }
-      joint = next;
     }
   }
 

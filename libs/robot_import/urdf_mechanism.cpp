@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "robot_import/urdf_values.h"
+#include "robot_model/child_elements.h"
 
 namespace nao {
 namespace {
@@ -19,12 +20,10 @@ constexpr double kLeastMassFraction = 2e-4;
 class MechanismRepair {
  public:
   MechanismRepair(TiXmlElement& robot, RepairLog& log) : log_(log) {
-    for (TiXmlElement* link = robot.FirstChildElement("link"); link != nullptr;
-         link = link->NextSiblingElement("link")) {
+    for (TiXmlElement* link : child_elements(robot, "link")) {
       links_[link->Attribute("name")] = link;
     }
-    for (TiXmlElement* joint = robot.FirstChildElement("joint"); joint != nullptr;
-         joint = joint->NextSiblingElement("joint")) {
+    for (TiXmlElement* joint : child_elements(robot, "joint")) {
       joints_.push_back(joint);
       by_name_[joint->Attribute("name")] = joint;
     }

@@ -21,6 +21,7 @@
 #include "robot_import/urdf_text.h"
 #include "robot_import/urdf_units.h"
 #include "robot_import/urdf_values.h"
+#include "robot_model/child_elements.h"
 
 namespace nao {
 namespace {
@@ -126,8 +127,7 @@ void UrdfRepair::load() {
   // The reader of the result wants a name, and knows one version.
   if (robot_->Attribute("name") == nullptr) robot_->SetAttribute("name", "robot");
   robot_->RemoveAttribute("version");
-  for (const TiXmlElement* element = robot_->FirstChildElement(); element != nullptr;
-       element = element->NextSiblingElement()) {
+  for (const TiXmlElement* element : child_elements(*robot_)) {
     const char* name = element->Attribute("name");
     if (name != nullptr) result_.lines.emplace(element->ValueStr() + " " + name, element->Row());
   }
@@ -140,8 +140,7 @@ void UrdfRepair::load() {
 // A link has one joint above it: the first one counts.
 void UrdfRepair::open_loops() {
   std::set<std::string> children;
-  for (TiXmlElement* joint = robot_->FirstChildElement("joint"); joint != nullptr;) {
-    TiXmlElement* next = joint->NextSiblingElement("joint");
+  for (TiXmlElement* joint : child_elements(*robot_, "joint")) {
     const TiXmlElement* child = joint->FirstChildElement("child");
     const char* link = child == nullptr ? nullptr : child->Attribute("link");
     if (link != nullptr && !children.insert(link).second) {
@@ -151,15 +150,13 @@ void UrdfRepair::open_loops() {
            "the loop is left open");
       robot_->RemoveChild(joint);
     }
-    joint = next;
   }
 }
 
 /** Joints by the links above them. */
 std::multimap<std::string, TiXmlElement*> joints_by_parent(TiXmlElement& robot) {
   std::multimap<std::string, TiXmlElement*> joints;
-  for (TiXmlElement* joint = robot.FirstChildElement("joint"); joint != nullptr;
-       joint = joint->NextSiblingElement("joint")) {
+  for (TiXmlElement* joint : child_elements(robot, "joint")) {
     const TiXmlElement* parent = joint->FirstChildElement("parent");
     const char* link = parent == nullptr ? nullptr : parent->Attribute("link");
     if (link != nullptr) joints.emplace(link, joint);
@@ -170,8 +167,7 @@ std::multimap<std::string, TiXmlElement*> joints_by_parent(TiXmlElement& robot) 
 // The tree with the most links is the robot.
 void UrdfRepair::find_root() {
   std::map<std::string, TiXmlElement*> links;
-  for (TiXmlElement* link = robot_->FirstChildElement("link"); link != nullptr;
-       link = link->NextSiblingElement("link")) {
+  for (TiXmlElement* link : child_elements(*robot_, "link")) {
     if (link->Attribute("name") == nullptr) fail(link, "a link has no name", "give it one");
     links[link->Attribute("name")] = link;
   }
@@ -221,8 +217,7 @@ void UrdfRepair::find_root() {
 
 // The robot's mass, for the assumed torque limits.
 void UrdfRepair::measure_mass() {
-  for (const TiXmlElement* link = robot_->FirstChildElement("link"); link != nullptr;
-       link = link->NextSiblingElement("link")) {
+  for (const TiXmlElement* link : child_elements(*robot_, "link")) {
     const TiXmlElement* inertial = link->FirstChildElement("inertial");
     const TiXmlElement* mass = inertial ? inertial->FirstChildElement("mass") : nullptr;
     if (mass != nullptr) mass_ += std::max(0.0, read_number(*mass, "value", 0));
@@ -233,15 +228,13 @@ void UrdfRepair::measure_mass() {
       to_text(kAssumedMass) + " kg are assumed for each: export the URDF with <inertial> elements");
   // Every body gets one: the root and what joints move. Frames stay without mass.
   std::set<std::string> bodies = {result_.root};
-  for (const TiXmlElement* joint = robot_->FirstChildElement("joint"); joint != nullptr;
-       joint = joint->NextSiblingElement("joint")) {
+  for (const TiXmlElement* joint : child_elements(*robot_, "joint")) {
     const TiXmlElement* child = joint->FirstChildElement("child");
     const char* type = joint->Attribute("type");
     if (child == nullptr || child->Attribute("link") == nullptr || type == nullptr) continue;
     if (std::string(type) != "fixed") bodies.insert(child->Attribute("link"));
   }
-  for (TiXmlElement* link = robot_->FirstChildElement("link"); link != nullptr;
-       link = link->NextSiblingElement("link")) {
+  for (TiXmlElement* link : child_elements(*robot_, "link")) {
     if (TiXmlElement* empty = link->FirstChildElement("inertial")) link->RemoveChild(empty);
     if (bodies.count(link->Attribute("name")) == 0) continue;
     link->InsertEndChild(make_inertial(kAssumedMass));
@@ -483,8 +476,7 @@ Eigen::Vector3d read_scale(const TiXmlElement& mesh) {
 
 // Meshes of one scale have one unit, which the largest one shows: small parts could be in either.
 void UrdfRepair::find_mesh_units(const TiXmlElement& element) {
-  for (const TiXmlElement* child = element.FirstChildElement(); child != nullptr;
-       child = child->NextSiblingElement()) {
+  for (const TiXmlElement* child : child_elements(element)) {
     find_mesh_units(*child);
     const char* name = child->Attribute("filename");
     if (child->ValueStr() != "mesh" || name == nullptr) continue;
@@ -596,9 +588,7 @@ void UrdfRepair::repair_cylinder(TiXmlElement& shape, TiXmlElement& geometry,
 
 void UrdfRepair::repair_shapes(TiXmlElement& link, const char* kind, const std::string& element) {
   const bool is_collision = std::string(kind) == "collision";
-  for (TiXmlElement* shape = link.FirstChildElement(kind); shape != nullptr;) {
-    // Taken before the shape may be removed.
-    TiXmlElement* next = shape->NextSiblingElement(kind);
+  for (TiXmlElement* shape : child_elements(link, kind)) {
     TiXmlElement* geometry = shape->FirstChildElement("geometry");
     bool stays = geometry != nullptr && geometry->FirstChildElement() != nullptr;
     if (!stays) {
@@ -612,14 +602,12 @@ void UrdfRepair::repair_shapes(TiXmlElement& link, const char* kind, const std::
       draw_primitive(*shape, *geometry);
     }
     if (!stays) link.RemoveChild(shape);
-    shape = next;
   }
 }
 
 /** Whether a file has a visual or a mesh at all; scripts draw the shells of a robot without. */
 bool has_drawing(const TiXmlElement& element) {
-  for (const TiXmlElement* child = element.FirstChildElement(); child != nullptr;
-       child = child->NextSiblingElement()) {
+  for (const TiXmlElement* child : child_elements(element)) {
     if (child->ValueStr() == "visual" || child->ValueStr() == "mesh" || has_drawing(*child)) {
       return true;
     }
@@ -633,8 +621,7 @@ void UrdfRepair::draw_by_collisions(TiXmlElement& link) {
       link.FirstChildElement("inertial") == nullptr) {
     return;
   }
-  for (const TiXmlElement* shape = link.FirstChildElement("collision"); shape != nullptr;
-       shape = shape->NextSiblingElement("collision")) {
+  for (const TiXmlElement* shape : child_elements(link, "collision")) {
     const TiXmlElement* geometry = shape->FirstChildElement("geometry");
     if (geometry == nullptr || geometry->FirstChildElement() == nullptr) continue;
     const TiXmlElement* mesh = geometry->FirstChildElement("mesh");
@@ -659,20 +646,17 @@ RepairedUrdf UrdfRepair::run() {
   open_loops();
   find_root();
   measure_mass();
-  for (TiXmlElement* joint = robot_->FirstChildElement("joint"); joint != nullptr;
-       joint = joint->NextSiblingElement("joint")) {
+  for (TiXmlElement* joint : child_elements(*robot_, "joint")) {
     repair_joint(*joint);
   }
-  for (TiXmlElement* link = robot_->FirstChildElement("link"); link != nullptr;
-       link = link->NextSiblingElement("link")) {
+  for (TiXmlElement* link : child_elements(*robot_, "link")) {
     repair_inertial(*link, std::string("link ") + link->Attribute("name"));
   }
   repair_mechanism(*robot_, log_);
   find_mesh_units(*robot_);
   report_mesh_units();
   const bool is_drawn = has_drawing(*robot_);
-  for (TiXmlElement* link = robot_->FirstChildElement("link"); link != nullptr;
-       link = link->NextSiblingElement("link")) {
+  for (TiXmlElement* link : child_elements(*robot_, "link")) {
     const std::string element = std::string("link ") + link->Attribute("name");
     repair_shapes(*link, "visual", element);
     if (is_drawn) draw_by_collisions(*link);
@@ -682,8 +666,7 @@ RepairedUrdf UrdfRepair::run() {
   for (const auto& [key, target] : converted_) meshes.insert(folder_ / target);
   limit_meshes(meshes);
   bool has_motor = false;
-  for (const TiXmlElement* joint = robot_->FirstChildElement("joint"); joint != nullptr;
-       joint = joint->NextSiblingElement("joint")) {
+  for (const TiXmlElement* joint : child_elements(*robot_, "joint")) {
     has_motor = has_motor || std::string(joint->Attribute("type")) != "fixed";
   }
   if (!has_motor) fail(robot_, "no joint can move", "import a robot with revolute joints");

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "robot_import/urdf_values.h"
+#include "robot_model/child_elements.h"
 
 namespace nao {
 namespace {
@@ -32,8 +33,7 @@ using Visit = std::function<void(TiXmlElement&)>;
 
 void for_each(TiXmlElement& element, const Visit& visit) {
   visit(element);
-  for (TiXmlElement* child = element.FirstChildElement(); child != nullptr;
-       child = child->NextSiblingElement()) {
+  for (TiXmlElement* child : child_elements(element)) {
     for_each(*child, visit);
   }
 }
@@ -70,8 +70,7 @@ void repair_ranges(TiXmlElement& robot, RepairLog& log) {
   int num_large = 0;
   int num_degrees = 0;
   TiXmlElement* first = nullptr;
-  for (TiXmlElement* joint = robot.FirstChildElement("joint"); joint != nullptr;
-       joint = joint->NextSiblingElement("joint")) {
+  for (TiXmlElement* joint : child_elements(robot, "joint")) {
     const double angle = greatest_angle(*joint);
     if (angle == 0) continue;
     limits.push_back(joint->FirstChildElement("limit"));
@@ -136,8 +135,7 @@ void repair_rotations(TiXmlElement& robot, RepairLog& log) {
 
 void repair_lengths(TiXmlElement& robot, RepairLog& log) {
   std::vector<double> distances;
-  for (const TiXmlElement* joint = robot.FirstChildElement("joint"); joint != nullptr;
-       joint = joint->NextSiblingElement("joint")) {
+  for (const TiXmlElement* joint : child_elements(robot, "joint")) {
     if (origin_of(*joint) > 0) distances.push_back(origin_of(*joint));
   }
   if (distances.empty()) return;
@@ -188,14 +186,12 @@ void repair_masses(TiXmlElement& robot, RepairLog& log) {
 
 double measure_chain(const TiXmlElement& robot) {
   std::multimap<std::string, const TiXmlElement*> joints;
-  for (const TiXmlElement* joint = robot.FirstChildElement("joint"); joint != nullptr;
-       joint = joint->NextSiblingElement("joint")) {
+  for (const TiXmlElement* joint : child_elements(robot, "joint")) {
     joints.emplace(link_of(*joint, "parent"), joint);
   }
   double longest = 0;
   std::vector<std::pair<std::string, double>> reached;
-  for (const TiXmlElement* link = robot.FirstChildElement("link"); link != nullptr;
-       link = link->NextSiblingElement("link")) {
+  for (const TiXmlElement* link : child_elements(robot, "link")) {
     const char* name = link->Attribute("name");
     const bool is_root =
         name != nullptr && std::none_of(joints.begin(), joints.end(), [&](const auto& joint) {

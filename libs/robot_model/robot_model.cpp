@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "common/data_path.h"
 #include "common/error.h"
 #include "robot_model/robot_model_reader.h"
 
@@ -23,6 +24,10 @@ const JointPair* Symmetry::find_pair(const std::string& name) const {
 
 RobotModel RobotModel::load(const std::filesystem::path& folder) {
   return RobotModelReader::read(folder);
+}
+
+RobotModel RobotModel::find(const std::string& name) {
+  return load(data_path() / "robots" / name);
 }
 
 const Posture* RobotModel::find_posture(const std::string& name) const {

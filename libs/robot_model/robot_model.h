@@ -21,6 +21,8 @@ class RobotModel : public RobotMechanism {
    * a folder.
    * @throws ModelError  with the file, the element and what is wrong with it. */
   static RobotModel load(const std::filesystem::path& folder);
+  /** As load(), from a folder of robots/ in data_path(): "nao". */
+  static RobotModel find(const std::string& name);
 
   const std::string& name() const { return name_; }
   const std::filesystem::path& folder() const { return folder_; }

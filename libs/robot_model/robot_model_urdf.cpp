@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "common/error.h"
+#include "robot_model/child_elements.h"
 #include "robot_model/joint_order.h"
 #include "robot_model/robot_model_reader.h"
 
@@ -145,8 +146,7 @@ UrdfTree UrdfFile::tree() const {
 
   // Names first, so that joints can be checked against them.
   std::set<std::string> links;
-  for (const TiXmlElement* link = robot->FirstChildElement("link"); link != nullptr;
-       link = link->NextSiblingElement("link")) {
+  for (const TiXmlElement* link : child_elements(*robot, "link")) {
     const std::string name = attribute(link, "name", "link");
     require(links.insert(name).second, "link " + name, "appears twice");
   }
@@ -154,8 +154,7 @@ UrdfTree UrdfFile::tree() const {
   UrdfTree tree;
   std::set<std::string> joints;
   std::map<std::string, std::string> joint_of_child;
-  for (const TiXmlElement* joint = robot->FirstChildElement("joint"); joint != nullptr;
-       joint = joint->NextSiblingElement("joint")) {
+  for (const TiXmlElement* joint : child_elements(*robot, "joint")) {
     const std::string name = attribute(joint, "name", "joint");
     const std::string element = "joint " + name;
     require(joints.insert(name).second, element, "appears twice");

@@ -1,6 +1,5 @@
 #include "robot_model/robot_models.h"
 
-#include "common/data_path.h"
 #include "common/error.h"
 
 namespace nao {
@@ -25,8 +24,7 @@ std::shared_ptr<const RobotModel> RobotModels::find(const std::string& name) {
     try {
       if (!is_folder_name(name))
         throw ModelError("\"" + name + "\" is not a valid name of a robot's folder");
-      found.model =
-          std::make_shared<const RobotModel>(RobotModel::load(data_path() / "robots" / name));
+      found.model = std::make_shared<const RobotModel>(RobotModel::find(name));
     } catch (const Error& error) {
       found.fault = error.what();
     }

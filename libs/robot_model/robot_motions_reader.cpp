@@ -4,6 +4,7 @@
 #include <set>
 
 #include "common/constants.h"
+#include "robot_model/action_kinds.h"
 #include "robot_model/robot_model_reader.h"
 
 namespace nao {
@@ -22,13 +23,9 @@ constexpr double kSupportSwitchFraction = 0.1;
 constexpr double kLimitTolerance = 1e-9;
 
 Action::Kind read_action_kind(const YamlEntry& entry) {
-  const std::string kind = entry.text();
-  if (kind == "stand-up") return Action::Kind::kStandUp;
-  if (kind == "rest") return Action::Kind::kRest;
-  if (kind == "kick") return Action::Kind::kKick;
-  if (kind == "block") return Action::Kind::kBlock;
-  if (kind == "dive") return Action::Kind::kDive;
-  if (kind == "gesture") return Action::Kind::kGesture;
+  const auto found = std::find(kActionKinds.begin(), kActionKinds.end(), entry.text());
+  const auto kind = static_cast<Action::Kind>(found - kActionKinds.begin());
+  if (kind < Action::Kind::kPolicy) return kind;
   entry.fail("must be stand-up, rest, kick, block, dive or gesture");
 }
 

@@ -29,8 +29,6 @@ std::string gateways_to_json(const ServiceDiscovery& discovery) {
     json.add("url", app_url(gateway));
     json.end();
   }
-  json.end();
-  json.end();
   return json.take();
 }
 

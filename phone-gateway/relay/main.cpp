@@ -27,9 +27,8 @@ struct ProgramOptions {
 
 void add_options(CommandLine& app, ProgramOptions& options) {
   RelayOptions& relay = options.relay;
-  app.add_option("--bind", relay.bind, "Address to listen on; 0.0.0.0: all, also of IPv6")
-      ->show_default();
-  app.add_option("--port", relay.port, "Port of phones and robots; 0: any free")->show_default();
+  app.add_option("--bind", relay.bind, "Address to listen on; 0.0.0.0: all, also of IPv6");
+  app.add_option("--port", relay.port, "Port of phones and robots; 0: any free");
   app.add_option("--key", relay.key_file, "Key of --certificate, PEM")->existing_file();
   app.add_option("--certificate", relay.certificate_file,
                  "Certificate chain, PEM; default: one that the relay signs itself, before which "
@@ -41,19 +40,16 @@ void add_options(CommandLine& app, ProgramOptions& options) {
   app.add_option("--tls-dir", options.tls_folder,
                  "Folder of that certificate; default: ~/.local/state/nao-remote/relay");
   RelayLimits& limits = relay.limits;
-  app.add_option("--max-phones", limits.max_phones, "Phones at most")->positive()->show_default();
-  app.add_option("--max-robots", limits.max_robots, "Robots at most")->positive()->show_default();
+  app.add_option("--max-phones", limits.max_phones, "Phones at most")->positive();
+  app.add_option("--max-robots", limits.max_robots, "Robots at most")->positive();
   app.add_option("--max-phones-per-robot", limits.max_phones_per_robot, "Phones of one robot")
-      ->positive()
-      ->show_default();
+      ->positive();
   app.add_option("--max-phones-per-address", limits.max_phones_per_address,
                  "Phones from one address")
-      ->positive()
-      ->show_default();
+      ->positive();
   app.add_option("--max-robots-per-address", limits.max_robots_per_address,
                  "Robots from one address")
-      ->positive()
-      ->show_default();
+      ->positive();
 }
 
 void prepare_tls(ProgramOptions& options) {

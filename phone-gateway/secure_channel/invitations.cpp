@@ -120,8 +120,6 @@ std::string write_relay_access(const RelayAccess& access) {
     json.add("until", invitation.until);
     json.end();
   }
-  json.end();
-  json.end();
   return json.take() + "\n";
 }
 

@@ -6,8 +6,6 @@
 #include <openssl/kdf.h>
 #include <openssl/x509.h>
 
-#include <array>
-
 #include "common/error.h"
 
 namespace nao {

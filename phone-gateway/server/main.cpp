@@ -51,20 +51,17 @@ constexpr int kQrScale = 8;
 
 void add_gateway_options(CommandLine& app, GatewayOptions& options) {
   NetworkOptions& network = options.network;
-  app.add_option("--http-port", network.http_port, "Port of the app and of WebSockets; 0: any free")
-      ->show_default();
-  app.add_option("--tcp-port", network.tcp_port, "Port of raw TCP clients; 0: any free")
-      ->show_default();
-  app.add_option("--bind", network.bind, "Address to listen on; 0.0.0.0: all, also of IPv6")
-      ->show_default();
+  app.add_option("--http-port", network.http_port,
+                 "Port of the app and of WebSockets; 0: any free");
+  app.add_option("--tcp-port", network.tcp_port, "Port of raw TCP clients; 0: any free");
+  app.add_option("--bind", network.bind, "Address to listen on; 0.0.0.0: all, also of IPv6");
   app.add_option("--tcp-congestion", network.congestion_control,
                  "TCP congestion control towards clients, such as bbr, where the system permits "
                  "it; default: the system's");
   add_robot_option(app, options.robots);
   app.add_option("--model", options.model,
-                 "Folder of robots/ that describes the robots whose --robot names none")
-      ->show_default();
-  app.add_option("--scene", options.scene, "Scene whose field the app shows")->show_default();
+                 "Folder of robots/ that describes the robots whose --robot names none");
+  app.add_option("--scene", options.scene, "Scene whose field the app shows");
   app.add_flag("--overview", options.has_overview,
                "Offer clients the camera beside the field, which nao-head-camera has in a "
                "simulated world");
@@ -79,8 +76,7 @@ void add_gateway_options(CommandLine& app, GatewayOptions& options) {
                "runs, does so unless --bind is a loopback address");
   app.add_option("--mdns-name", options.mdns_name,
                  "Announce this host also as NAME.local, or NAME-2.local where that is taken; "
-                 "empty: no name")
-      ->show_default();
+                 "empty: no name");
   app.add_option(
       "--allow-origin", options.origins,
       "Another site whose pages may connect, such as http://localhost:5173 (repeatable)");

@@ -5,17 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <exception>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "common/command_line.h"
-#include "common/data_path.h"
+#include "common/processor_time.h"
 #include "sim/engine.h"
-#include "tools/bench/cpu_time.h"
-#include "tools/bench/figures.h"
+#include "tools/bench/run_benchmark.h"
 #include "tools/policy-train/batch_simulation.h"
 
 namespace nao::policy_train {
@@ -58,7 +54,7 @@ class Course {
 
   /** @return Control steps for each second of processor time. */
   double run_round() {
-    const double begin = processor_seconds();
+    const double begin = thread_seconds();
     for (int k = 0; k < kStepsOfRound; ++k, ++step_) {
       for (size_t i = 0; i < rows_.actions.size(); ++i) {
         rows_.actions[i] =
@@ -66,7 +62,7 @@ class Course {
       }
       batch_.step(rows_.arrays());
     }
-    return kNumRobots * kStepsOfRound / (processor_seconds() - begin);
+    return kNumRobots * kStepsOfRound / (thread_seconds() - begin);
   }
 
  private:
@@ -82,8 +78,7 @@ class Course {
 
 Figure measure(const std::string& model_name, int num_rounds) {
   EnvironmentOptions options;
-  options.model =
-      std::make_shared<RobotModel>(RobotModel::load(data_path() / "robots" / model_name));
+  options.model = std::make_shared<RobotModel>(RobotModel::find(model_name));
   options.manifest = std::make_shared<PolicyManifest>(
       PolicyManifest::parse(*options.model, manifest_of(*options.model), "benchmark"));
   options.disturbances =
@@ -113,22 +108,13 @@ Figure measure(const std::string& model_name, int num_rounds) {
 int main(int argc, char** argv) {
   nao::CommandLine app("Measures the simulation of many robots for the training of policies.",
                        "nao-bench-batch");
-  std::string json_file;
   int num_rounds = 9;
-  app.add_option("--json", json_file, "Write the figures to this file too");
-  app.add_option("--rounds", num_rounds, "Rounds of half a second of simulated time")
-      ->positive()
-      ->show_default();
-  if (const auto status = app.parse(argc, argv)) return *status;
-  try {
+  app.add_option("--rounds", num_rounds, "Rounds of half a second of simulated time")->positive();
+  return nao::run_benchmark(app, argc, argv, [&] {
     std::vector<nao::Figure> figures;
     for (const char* model : {"nao", "t1"}) {
       figures.push_back(nao::policy_train::measure(model, num_rounds));
     }
-    nao::report(figures, json_file);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "nao-bench-batch: %s\n", error.what());
-    return 1;
-  }
-  return 0;
+    return figures;
+  });
 }

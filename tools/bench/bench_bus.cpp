@@ -11,9 +11,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstdint>
-#include <cstdio>
 #include <cstring>
-#include <exception>
 #include <lcm/lcm-cpp.hpp>
 #include <optional>
 #include <stdexcept>
@@ -21,8 +19,7 @@
 #include <utility>
 #include <vector>
 
-#include "common/command_line.h"
-#include "tools/bench/figures.h"
+#include "tools/bench/run_benchmark.h"
 
 namespace nao {
 namespace {
@@ -296,17 +293,8 @@ std::vector<Figure> measure(const std::string& url, int num_rounds) {
 int main(int argc, char** argv) {
   nao::CommandLine app("Measures the message bus against bare UDP", "nao-bench-bus");
   std::string url = "udpm://239.255.76.67:7699?ttl=0";
-  std::string json_file;
   int num_rounds = 2000;
-  app.add_option("--lcm-url", url, "Bus without other traffic")->show_default();
-  app.add_option("--json", json_file, "File for the figures as JSON");
-  app.add_option("--rounds", num_rounds, "Messages to send")->positive()->show_default();
-  if (const auto status = app.parse(argc, argv)) return *status;
-  try {
-    nao::report(nao::measure(url, num_rounds), json_file);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "nao-bench-bus: %s\n", error.what());
-    return 1;
-  }
-  return 0;
+  app.add_option("--lcm-url", url, "Bus without other traffic");
+  app.add_option("--rounds", num_rounds, "Messages to send")->positive();
+  return nao::run_benchmark(app, argc, argv, [&] { return nao::measure(url, num_rounds); });
 }

@@ -2,10 +2,10 @@
 // that every renderer needs: clear, read back, resize, compress. Both run alternately, so that
 // other load on the machine affects both.
 
+#include <fmt/core.h>
 #include <sys/resource.h>
 
 #include <algorithm>
-#include <ctime>
 #include <functional>
 #include <map>
 #include <naolcm/image_t.hpp>
@@ -13,10 +13,8 @@
 
 #include "common/bus.h"
 #include "common/channels.h"
-#include "common/command_line.h"
-#include "common/data_path.h"
 #include "common/event_loop.h"
-#include "common/logger.h"
+#include "common/processor_time.h"
 #include "common/wall_clock.h"
 #include "daemons/head-camera/half_size.h"
 #include "daemons/head-camera/head_camera.h"
@@ -26,7 +24,7 @@
 #include "rendering/decode_state.h"
 #include "rendering/gl.h"
 #include "robot_model/robot_model.h"
-#include "tools/bench/figures.h"
+#include "tools/bench/run_benchmark.h"
 
 namespace {
 
@@ -42,20 +40,13 @@ const char* const kCamera = "top";
 constexpr int kQuality = 80;
 constexpr int kMostBytes = 64000;
 
-/** Time of the processor that this process has used in all its threads, s. */
-double processor_seconds() {
-  timespec time{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
-
 /** Times of named stages, one entry a round, ms of processor time. */
 class Stages {
  public:
   void measure(const std::string& name, const std::function<void()>& work) {
-    const double start = processor_seconds();
+    const double start = nao::process_seconds();
     work();
-    add(name, 1e3 * (processor_seconds() - start));
+    add(name, 1e3 * (nao::process_seconds() - start));
   }
   void add(const std::string& name, double time_ms) { times_ms_[name].push_back(time_ms); }
   double median_ms(const std::string& name) const { return nao::median(times_ms_.at(name)); }
@@ -148,9 +139,9 @@ double daemon_percent(const nao::RobotModel& model, double seconds) {
     }
   };
   turns(3);
-  const double start = processor_seconds();
+  const double start = nao::process_seconds();
   turns(static_cast<int>(10 * seconds));
-  return 100 * (processor_seconds() - start) / seconds;
+  return 100 * (nao::process_seconds() - start) / seconds;
 }
 
 /** Ages of the images when they are published, s: time since their state was published. States (100
@@ -187,7 +178,7 @@ double peak_memory_mb() {
 }
 
 std::vector<Figure> run(int num_rounds) {
-  const auto model = nao::RobotModel::load(nao::data_path() / "robots" / "nao");
+  const auto model = nao::RobotModel::find("nao");
   const nao::WorldState world = soccer_world(model);
   std::vector<Figure> figures;
   JpegEncoder encoder;
@@ -201,7 +192,7 @@ std::vector<Figure> run(int num_rounds) {
         HeadCameraOptions options;
         options.shadow_size = shadow_size;
         HeadCamera camera(model, options);
-        if (block == 0 && shadow_size > 0) nao::logger::info("drawing with {}", camera.driver());
+        if (block == 0 && shadow_size > 0) fmt::print("drawing with {}\n", camera.driver());
         for (int i = 0; i < 3; ++i) take_and_encode(camera, world, encoder);
         // The baseline compresses the same images, so that this work is the same.
         const CameraFrame frame = camera.frame();
@@ -257,16 +248,7 @@ std::vector<Figure> run(int num_rounds) {
 int main(int argc, char** argv) {
   nao::CommandLine app("Measures the head camera; times are processor time of one process",
                        "nao-bench-camera");
-  std::string json_file;
   int num_rounds = 100;
-  app.add_option("--json", json_file, "File for the figures as JSON");
-  app.add_option("--rounds", num_rounds, "Images of each kind")->range(5, 100000)->show_default();
-  if (const auto status = app.parse(argc, argv)) return *status;
-  try {
-    nao::report(run(num_rounds), json_file);
-  } catch (const std::exception& error) {
-    nao::logger::error("{}", error.what());
-    return 1;
-  }
-  return 0;
+  app.add_option("--rounds", num_rounds, "Images of each kind")->range(5, 100000);
+  return nao::run_benchmark(app, argc, argv, [&] { return run(num_rounds); });
 }

@@ -23,14 +23,12 @@
 #include "common/bus.h"
 #include "common/channels.h"
 #include "common/child_process.h"
-#include "common/command_line.h"
-#include "common/logger.h"
 #include "common/scheduling.h"
 #include "common/wall_clock.h"
 #include "phone-gateway/protocol/framing.h"
 #include "tools/bench/deadline.h"
-#include "tools/bench/figures.h"
 #include "tools/bench/ports.h"
+#include "tools/bench/run_benchmark.h"
 #include "tools/bench/wire_client.h"
 
 namespace nao::bench {
@@ -371,21 +369,11 @@ std::vector<Figure> run(double time) {
 
 int main(int argc, char** argv) {
   nao::CommandLine app("Measures one gateway with 8 robots and 100 clients", "nao-bench-crowd");
-  std::string json_file;
   double time = 10;
-  app.add_option("--json", json_file, "File for the figures as JSON");
-  app.add_option("--time", time, "How long each measurement takes, s")
-      ->range(2.0, 3600.0)
-      ->show_default();
-  if (const auto status = app.parse(argc, argv)) return *status;
-  nao::logger::set_up("nao-bench-crowd", "warning");
-  // Phones are machines of their own: what they see must not wait for the processor of this one.
-  nao::request_realtime_scheduling(nao::RealtimePriority::kControl);
-  try {
-    nao::report(nao::bench::run(time), json_file);
-  } catch (const std::exception& error) {
-    nao::logger::error("{}", error.what());
-    return 1;
-  }
-  return 0;
+  app.add_option("--time", time, "How long each measurement takes, s")->range(2.0, 3600.0);
+  return nao::run_benchmark(app, argc, argv, [&] {
+    // Phones are machines of their own: what they see must not wait for the processor of this one.
+    nao::request_realtime_scheduling(nao::RealtimePriority::kControl);
+    return nao::bench::run(time);
+  });
 }

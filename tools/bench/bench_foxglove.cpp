@@ -15,13 +15,12 @@
 #include <vector>
 
 #include "common/child_process.h"
-#include "common/command_line.h"
 #include "common/json_text.h"
 #include "common/wall_clock.h"
 #include "tools/bench/bare_sender_cost.h"
 #include "tools/bench/deadline.h"
-#include "tools/bench/figures.h"
 #include "tools/bench/ports.h"
+#include "tools/bench/run_benchmark.h"
 #include "tools/bench/websocket_client.h"
 
 namespace nao::bench {
@@ -187,24 +186,13 @@ std::vector<Figure> run(int num_rounds, double time, bool prints_topics) {
 int main(int argc, char** argv) {
   nao::CommandLine app("Measures nao-foxglove with three clients of every channel",
                        "nao-bench-foxglove");
-  std::string json_file;
   int num_rounds = 5;
   double time = 10;
   bool prints_topics = false;
-  app.add_option("--json", json_file, "File for the figures as JSON");
   app.add_option("--rounds", num_rounds, "Pairs of measurements; the medians count")
-      ->range(1, 1000)
-      ->show_default();
-  app.add_option("--time", time, "Duration of each measurement, s")
-      ->range(1.0, 3600.0)
-      ->show_default();
+      ->range(1, 1000);
+  app.add_option("--time", time, "Duration of each measurement, s")->range(1.0, 3600.0);
   app.add_flag("--topics", prints_topics, "Also print the rate of every channel");
-  if (const auto status = app.parse(argc, argv)) return *status;
-  try {
-    nao::report(nao::bench::run(num_rounds, time, prints_topics), json_file);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "nao-bench-foxglove: %s\n", error.what());
-    return 1;
-  }
-  return 0;
+  return nao::run_benchmark(app, argc, argv,
+                            [&] { return nao::bench::run(num_rounds, time, prints_topics); });
 }

@@ -4,12 +4,11 @@
 
 #include <unistd.h>
 
-#include "common/command_line.h"
-#include "common/logger.h"
 #include "common/scheduling.h"
 #include "tools/bench/gateway_latency.h"
 #include "tools/bench/gateway_losses.h"
 #include "tools/bench/gateway_streams.h"
+#include "tools/bench/run_benchmark.h"
 
 namespace nao::bench {
 namespace {
@@ -30,25 +29,14 @@ std::vector<Figure> run(int num_rounds, double time) {
 
 int main(int argc, char** argv) {
   nao::CommandLine app("Measures the gateway in front of a simulated robot", "nao-bench-gateway");
-  std::string json_file;
   int num_rounds = 40;
   double time = 10;
-  app.add_option("--json", json_file, "File for the figures as JSON");
-  app.add_option("--rounds", num_rounds, "Commands to time on each path")
-      ->range(2, 10000)
-      ->show_default();
+  app.add_option("--rounds", num_rounds, "Commands to time on each path")->range(2, 10000);
   app.add_option("--time", time, "How long clients watch in each measurement, s")
-      ->range(2.0, 3600.0)
-      ->show_default();
-  if (const auto status = app.parse(argc, argv)) return *status;
-  nao::logger::set_up("nao-bench-gateway", "warning");
-  // Phones are machines of their own: what they see must not wait for the processor of this one.
-  nao::request_realtime_scheduling(nao::RealtimePriority::kControl);
-  try {
-    nao::report(nao::bench::run(num_rounds, time), json_file);
-  } catch (const std::exception& error) {
-    nao::logger::error("{}", error.what());
-    return 1;
-  }
-  return 0;
+      ->range(2.0, 3600.0);
+  return nao::run_benchmark(app, argc, argv, [&] {
+    // Phones are machines of their own: what they see must not wait for the processor of this one.
+    nao::request_realtime_scheduling(nao::RealtimePriority::kControl);
+    return nao::bench::run(num_rounds, time);
+  });
 }

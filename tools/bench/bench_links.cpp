@@ -6,11 +6,9 @@
 #include <algorithm>
 #include <iostream>
 
-#include "common/command_line.h"
-#include "common/logger.h"
 #include "common/scheduling.h"
-#include "tools/bench/figures.h"
 #include "tools/bench/link_phone.h"
+#include "tools/bench/run_benchmark.h"
 
 namespace nao::bench {
 namespace {
@@ -85,33 +83,22 @@ std::vector<Figure> run(const std::vector<std::string>& only, double time, uint3
 
 int main(int argc, char** argv) {
   nao::CommandLine app("Measures driving a simulated robot over bad links", "nao-bench-links");
-  std::string json_file;
   std::vector<std::string> only;
   std::vector<std::string> names;
   for (const auto& row : nao::bench::make_rows()) names.push_back(row.conditions.name);
   double time = 60;
   int seed = 1;
-  app.add_option("--json", json_file, "File for the figures as JSON");
   app.add_option("--link", only, "Only these links; may be repeated")->one_of(names);
-  app.add_option("--time", time, "How long the phone drives over each link, s")
-      ->range(1.0, 3600.0)
-      ->show_default();
+  app.add_option("--time", time, "How long the phone drives over each link, s")->range(1.0, 3600.0);
   std::string congestion = "cubic";
   bool has_second = true;
-  app.add_option("--tcp-congestion", congestion, "Of the gateway; the phone has cubic")
-      ->show_default();
+  app.add_option("--tcp-congestion", congestion, "Of the gateway; the phone has cubic");
   app.add_flag("!--one-connection", has_second, "The phone opens no second connection");
-  app.add_option("--seed", seed, "Of the links' losses")->not_negative()->show_default();
-  if (const auto status = app.parse(argc, argv)) return *status;
-  nao::logger::set_up("nao-bench-links", "warning");
-  // The link and the phone are machines of their own: they must not wait for this one's processor.
-  nao::request_realtime_scheduling(nao::RealtimePriority::kControl);
-  try {
-    nao::report(nao::bench::run(only, time, static_cast<uint32_t>(seed), congestion, has_second),
-                json_file);
-  } catch (const std::exception& error) {
-    nao::logger::error("{}", error.what());
-    return 1;
-  }
-  return 0;
+  app.add_option("--seed", seed, "Of the links' losses")->not_negative();
+  return nao::run_benchmark(app, argc, argv, [&] {
+    // The link and the phone are machines of their own: they must not wait for this one's
+    // processor.
+    nao::request_realtime_scheduling(nao::RealtimePriority::kControl);
+    return nao::bench::run(only, time, static_cast<uint32_t>(seed), congestion, has_second);
+  });
 }

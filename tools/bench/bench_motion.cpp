@@ -1,25 +1,20 @@
 // Measures the motion core: CPU time of one step while standing and while walking, and the
 // real-time factor of simulator and motion core on one CPU core.
 
-#include <cstdio>
-#include <exception>
 #include <memory>
-#include <string>
 #include <vector>
 
-#include "common/command_line.h"
-#include "common/data_path.h"
+#include "common/processor_time.h"
 #include "robot_model/robot_model.h"
 #include "sim/closed_loop/closed_loop.h"
-#include "tools/bench/cpu_time.h"
-#include "tools/bench/figures.h"
+#include "tools/bench/run_benchmark.h"
 
 namespace nao {
 namespace {
 
 ClosedLoopOptions trial_options() {
   ClosedLoopOptions options;
-  options.model = std::make_shared<RobotModel>(RobotModel::load(data_path() / "robots/nao"));
+  options.model = std::make_shared<RobotModel>(RobotModel::find("nao"));
   options.scene = SceneFile::find("empty");
   return options;
 }
@@ -28,7 +23,7 @@ ClosedLoopOptions trial_options() {
 double step_us(const Eigen::Vector3d& velocity, double seconds) {
   ClosedLoop trial(trial_options(), 1);
   std::vector<double> times;
-  trial.measure_steps(processor_seconds, times);
+  trial.measure_steps(thread_seconds, times);
   trial.run(1);
   if (!velocity.isZero()) {
     trial.hold_walk(velocity);
@@ -42,9 +37,9 @@ double step_us(const Eigen::Vector3d& velocity, double seconds) {
 double real_time_factor(double seconds) {
   ClosedLoop trial(trial_options(), 1);
   trial.run(1);
-  const double begin = processor_seconds();
+  const double begin = thread_seconds();
   trial.run(seconds);
-  return seconds / (processor_seconds() - begin);
+  return seconds / (thread_seconds() - begin);
 }
 
 std::vector<Figure> measure(double seconds) {
@@ -60,16 +55,7 @@ int main(int argc, char** argv) {
   nao::CommandLine app(
       "Measures the motion core's step, and simulator and core together on one core.",
       "nao-bench-motion");
-  std::string json_file;
   double seconds = 20;
-  app.add_option("--json", json_file, "Write the figures to this file too");
-  app.add_option("--seconds", seconds, "Simulated time of each measurement, s")->show_default();
-  if (const auto status = app.parse(argc, argv)) return *status;
-  try {
-    nao::report(nao::measure(seconds), json_file);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "nao-bench-motion: %s\n", error.what());
-    return 1;
-  }
-  return 0;
+  app.add_option("--seconds", seconds, "Simulated time of each measurement, s");
+  return nao::run_benchmark(app, argc, argv, [&] { return nao::measure(seconds); });
 }

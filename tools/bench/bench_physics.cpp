@@ -6,19 +6,17 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <exception>
 #include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "common/command_line.h"
+#include "common/processor_time.h"
 #include "common/wall_clock.h"
 #include "robot_model/robot_model.h"
 #include "sim/world.h"
-#include "tools/bench/cpu_time.h"
-#include "tools/bench/figures.h"
 #include "tools/bench/physics_scenarios.h"
+#include "tools/bench/run_benchmark.h"
 #ifdef NAO_HAS_MUJOCO
 #include "sim/mujoco_baseline.h"
 #endif
@@ -160,9 +158,9 @@ std::vector<double> times_in_turns(const std::vector<std::function<void()>>& tic
   std::vector<std::vector<double>> times(ticks.size());
   for (int round = 0; round < rounds; ++round) {
     for (size_t i = 0; i < ticks.size(); ++i) {
-      const double start = processor_seconds();
+      const double start = thread_seconds();
       for (int k = 0; k < ticks_per_round; ++k) ticks[i]();
-      times[i].push_back(1e6 * (processor_seconds() - start) / (ticks_per_round * steps_per_tick));
+      times[i].push_back(1e6 * (thread_seconds() - start) / (ticks_per_round * steps_per_tick));
     }
   }
   std::vector<double> medians;
@@ -245,20 +243,20 @@ void measure_stages(const PhysicsScenario& scenario, std::vector<Figure>& figure
   // The probe is called once after each stage.
   // Reading the clock takes about as long as a stage: the duration of the readings is subtracted.
   constexpr int kReadings = 100000;
-  const double start = processor_seconds();
-  for (int i = 0; i < kReadings; ++i) (void)processor_seconds();
-  const double reading = (processor_seconds() - start) / kReadings;
+  const double start = thread_seconds();
+  for (int i = 0; i < kReadings; ++i) (void)thread_seconds();
+  const double reading = (thread_seconds() - start) / kReadings;
   ours.world().set_stage_probe(
       [](World::Stage stage, void* user) {
         auto& all = *static_cast<StageTimes*>(user);
-        const double now = processor_seconds();
+        const double now = thread_seconds();
         all.sum[static_cast<size_t>(stage)] += now - all.last;
         all.last = now;
       },
       &times);
   constexpr int kSteps = 20000;  // 40 s of simulated time
   for (int i = 0; i < kSteps; ++i) {
-    times.last = processor_seconds();
+    times.last = thread_seconds();
     ours.world().step();
   }
   for (size_t i = 0; i < times.sum.size(); ++i) {
@@ -339,7 +337,7 @@ void measure_threads(std::vector<Figure>& figures) {
   figures.push_back({"physics.threads_2_speedup", one / two, "x", "one thread", 1});
 }
 
-void measure(int rounds, const std::string& json_file) {
+std::vector<Figure> measure(int rounds) {
   std::vector<Figure> figures;
   PhysicsScenario standing;
   standing.name = "standing";
@@ -384,7 +382,7 @@ void measure(int rounds, const std::string& json_file) {
                        1e3 * common_error<MujocoPhysics>(*scenario, ticks)});
 #endif
   }
-  report(figures, json_file);
+  return figures;
 }
 
 }  // namespace
@@ -393,18 +391,8 @@ void measure(int rounds, const std::string& json_file) {
 int main(int argc, char** argv) {
   nao::CommandLine app("Measures the physics. Baseline, if installed: MuJoCo.",
                        "nao-bench-physics");
-  std::string json_file;
   int rounds = 40;
-  app.add_option("--json", json_file, "File for the figures");
   app.add_option("--rounds", rounds, "Repetitions of each simulator in each scenario")
-      ->range(3, 1000)
-      ->show_default();
-  if (const auto status = app.parse(argc, argv)) return *status;
-  try {
-    nao::measure(rounds, json_file);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "nao-bench-physics: %s\n", error.what());
-    return 1;
-  }
-  return 0;
+      ->range(3, 1000);
+  return nao::run_benchmark(app, argc, argv, [&] { return nao::measure(rounds); });
 }

@@ -21,7 +21,6 @@
 #include <stdexcept>
 #include <string>
 #include <thread>
-#include <vector>
 
 #include "common/child_process.h"
 #include "common/wall_clock.h"

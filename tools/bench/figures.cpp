@@ -4,11 +4,8 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <iostream>
-#include <stdexcept>
 
 #include "common/json_writer.h"
-#include "common/output_file.h"
 
 namespace nao {
 
@@ -59,13 +56,7 @@ std::string to_json(const std::vector<Figure>& figures) {
     }
     json.end();
   }
-  json.end();
-  return json.text() + "\n";
-}
-
-void report(const std::vector<Figure>& figures, const std::string& json_file) {
-  std::cout << to_table(figures) << std::flush;
-  if (!json_file.empty()) replace_file(json_file, to_json(figures));
+  return json.take() + "\n";
 }
 
 }  // namespace nao

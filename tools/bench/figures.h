@@ -31,8 +31,4 @@ std::string to_table(const std::vector<Figure>& figures);
  */
 std::string to_json(const std::vector<Figure>& figures);
 
-/** Prints the table, and writes the JSON to a file unless its name is empty.
- * @throws std::runtime_error  if the file cannot be written. */
-void report(const std::vector<Figure>& figures, const std::string& json_file);
-
 }  // namespace nao

@@ -4,14 +4,12 @@
 #include <cmath>
 #include <cstdio>
 
-#include "common/data_path.h"
 #include "sim/closed_loop/closed_loop.h"
 
 namespace nao {
 
 std::shared_ptr<const RobotModel> nao_model() {
-  static const auto model =
-      std::make_shared<const RobotModel>(RobotModel::load(data_path() / "robots/nao"));
+  static const auto model = std::make_shared<const RobotModel>(RobotModel::find("nao"));
   return model;
 }
 

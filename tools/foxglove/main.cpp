@@ -1,6 +1,5 @@
 // nao-foxglove: serves the bus to Foxglove and Lichtblick. See README.md.
 
-#include <algorithm>
 #include <naolcm/camera_command_t.hpp>
 #include <set>
 #include <span>
@@ -9,7 +8,6 @@
 #include "common/bus.h"
 #include "common/channels.h"
 #include "common/command_line.h"
-#include "common/data_path.h"
 #include "common/logger.h"
 #include "common/program.h"
 #include "common/status_reporter.h"
@@ -42,24 +40,18 @@ struct Options {
 };
 
 void add_options(CommandLine& app, Options& options) {
-  app.add_option("--bind", options.network.bind, "Address to listen on; 0.0.0.0: all, also of IPv6")
-      ->show_default();
-  app.add_option("--port", options.network.port, "Port of WebSockets and HTTP; 0: any free")
-      ->show_default();
+  app.add_option("--bind", options.network.bind,
+                 "Address to listen on; 0.0.0.0: all, also of IPv6");
+  app.add_option("--port", options.network.port, "Port of WebSockets and HTTP; 0: any free");
   add_model_option(app, options.model);
   app.add_option("--camera-width", options.camera_width,
-                 "Width of the images that are requested while a client watches them, pixels")
-      ->show_default();
+                 "Width of the images that are requested while a client watches them, pixels");
   app.add_option("--camera-rate", options.camera_rate, "Images a second that are requested")
-      ->range(1.0, 30.0)
-      ->show_default();
-  app.add_option("--max-clients", options.max_clients, "Clients at once")
-      ->range(1, 100)
-      ->show_default();
+      ->range(1.0, 30.0);
+  app.add_option("--max-clients", options.max_clients, "Clients at once")->range(1, 100);
   app.add_option("--max-queued-mb", options.max_queued_mb,
                  "Messages that may wait for one client, MB; a slow client gets the newest")
-      ->range(1, 1000)
-      ->show_default();
+      ->range(1, 1000);
   app.add_flag("--allow-commands", options.allow_commands,
                "Clients may publish commands: any of them can then move the robot");
   app.add_option("--allow-origin", options.network.origins,
@@ -107,7 +99,7 @@ class ImageRequests {
 void run(const CommonOptions& common, Options options) {
   options.limits = {static_cast<size_t>(options.max_clients),
                     static_cast<size_t>(options.max_queued_mb) * 1'000'000};
-  const RobotModel model = RobotModel::load(data_path() / "robots" / options.model);
+  const RobotModel model = RobotModel::find(options.model);
   AssetFolder files(model.folder(), model.urdf_file());
   ServerCore core(std::string(kProgram) + " " + version() + ", robot " + common.robot,
                   std::to_string(wall_utime()), options.limits,

@@ -1,7 +1,6 @@
 #include "tools/foxglove/protocol.h"
 
 #include <algorithm>
-#include <iterator>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -174,7 +173,6 @@ std::string server_info_text(const std::string& name, const std::string& session
   json.begin_object("metadata");
   json.end();
   json.add("sessionId", session_id);
-  json.end();
   return json.take();
 }
 
@@ -193,8 +191,6 @@ std::string advertise_text(const std::vector<const Channel*>& channels) {
     json.add("schemaEncoding", "jsonschema");
     json.end();
   }
-  json.end();
-  json.end();
   return json.take();
 }
 
@@ -204,7 +200,6 @@ std::string status_text(StatusLevel level, const std::string& message) {
   json.add("op", "status");
   json.add("level", static_cast<int>(level));
   json.add("message", message);
-  json.end();
   return json.take();
 }
 

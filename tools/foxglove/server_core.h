@@ -7,7 +7,6 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "tools/foxglove/client_publisher.h"
 #include "tools/foxglove/outbox.h"

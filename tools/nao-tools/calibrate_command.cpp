@@ -3,7 +3,6 @@
 #include <cmath>
 #include <cstdio>
 #include <ctime>
-#include <limits>
 #include <memory>
 #include <naolcm/sensor_state_t.hpp>
 #include <optional>
@@ -12,8 +11,6 @@
 #include "calibration/calibration_run.h"
 #include "common/bus.h"
 #include "common/command_line.h"
-#include "common/data_path.h"
-#include "common/error.h"
 #include "common/output_file.h"
 #include "common/program.h"
 #include "common/wall_clock.h"
@@ -49,7 +46,7 @@ class Calibrator {
       : model_(model), run_(model, num_stations), session_(common, "nao-calibrate") {
     session_.bus().subscribe<naolcm::sensor_state_t>(
         session_.channels().sensor_state, Bus::Queue::kAll,
-        [this](const naolcm::sensor_state_t& message) { measure(message); });
+        [this](const auto& message) { measure(message); });
   }
 
   /** @return Why not all poses were measured: Ctrl-C, silence or repeated faults; empty: they were.
@@ -105,7 +102,7 @@ class Calibrator {
 };
 
 int calibrate(const CommonOptions& common, const CalibrateOptions& options) {
-  const RobotModel model = RobotModel::load(data_path() / "robots" / options.model);
+  const RobotModel model = RobotModel::find(options.model);
   Calibrator calibrator(common, model, options.num_stations);
   const std::string fault = calibrator.execute();
   std::printf("\n");
@@ -134,17 +131,14 @@ int calibrate(const CommonOptions& common, const CalibrateOptions& options) {
 void add_calibrate_command(CommandLine& app, Invocation& invocation) {
   const auto options = std::make_shared<CalibrateOptions>();
   CommandLine* command = app.add_subcommand(kCalibrateSubcommand.name, kCalibrateSubcommand.help);
-  command->add_option("--output", options->file, "File to write")->show_default();
+  command->add_option("--output", options->file, "File to write");
   add_model_option(*command, options->model);
   command
       ->add_option("--directions", options->num_stations,
                    "Directions in which it stands; with 1 it does not walk, and takes a slope of "
                    "the floor for an error of its own")
-      ->range(1, 8)
-      ->show_default();
-  command->on_parsed([&invocation, options] {
-    invocation.run = [&invocation, options] { return calibrate(invocation.common, *options); };
-  });
+      ->range(1, 8);
+  invocation.on(*command, [options](const auto& common) { return calibrate(common, *options); });
 }
 
 }  // namespace nao

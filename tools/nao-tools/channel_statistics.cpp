@@ -9,7 +9,6 @@ namespace nao {
 void ChannelStatistics::add(const std::string& channel, const void* data, int size, double now) {
   if (period_start_ < 0) period_start_ = now;
   ChannelRecord& record = channels_[channel];
-  if (record.num_messages == 0) record.first_time = now;
   record.last_time = now;
   ++record.num_messages;
   ++record.num_messages_in_period;
@@ -66,8 +65,7 @@ std::string ChannelStatistics::to_json(double now) const {
     json.add("age_s", now - record.last_time);
     json.end();
   }
-  json.end();
-  return json.text();
+  return json.take();
 }
 
 }  // namespace nao

@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <map>
 #include <string>
-#include <vector>
 
 namespace nao {
 
@@ -15,8 +14,7 @@ struct ChannelRecord {
   /** Messages of an unknown type, and messages that do not decode. */
   int64_t num_undecodable = 0;
   int64_t num_bytes = 0;
-  /** Arrival of the first and the newest message, s. */
-  double first_time = 0;
+  /** Arrival of the newest message, s. */
   double last_time = 0;
   /** Messages and bytes since the last call of finish_period(). */
   int64_t num_messages_in_period = 0;

@@ -127,15 +127,13 @@ int write_json(const LogOptions& options) {
   Output output(options.output);
   const auto write = [&](const LogEvent& event, const MessageLayout& layout,
                          const std::string& message) {
-    JsonWriter head;
-    head.begin_object();
-    head.add("log_wall_utime", int64_t{event.wall_utime});
-    head.add("channel", event.channel);
-    head.add("type", layout.name);
-    head.end();
-    std::string line = head.text();
-    line.pop_back();
-    output.stream() << line << ",\"message\":" << message << "}\n";
+    JsonWriter json;
+    json.begin_object();
+    json.add("log_wall_utime", int64_t{event.wall_utime});
+    json.add("channel", event.channel);
+    json.add("type", layout.name);
+    json.add_json("message", message);
+    output.stream() << json.take() << "\n";
   };
   const Undecodable undecodable = read_as_json(log, selected, write);
   output.finish();
@@ -172,11 +170,9 @@ CommandLine* add_log_subcommand(CommandLine& log, Invocation& invocation,
                                 const std::string& description, int (*run)(const LogOptions&)) {
   CommandLine* command = log.add_subcommand(name, description);
   command->add_option("file", options->file, "Log of scripts/record")->required();
-  command->on_parsed([&invocation, options, run] {
-    invocation.run = [&invocation, options, run] {
-      options->robot = invocation.common.robot;
-      return run(*options);
-    };
+  invocation.on(*command, [options, run](const auto& common) {
+    options->robot = common.robot;
+    return run(*options);
   });
   return command;
 }
@@ -188,10 +184,9 @@ void add_log_command(CommandLine& app, Invocation& invocation) {
   log->require_subcommand();
   const auto options = std::make_shared<LogOptions>();
   const auto add_channels = [&](CommandLine* command) {
-    command
-        ->add_option("--channels", options->channels,
-                     "Only channels whose whole name matches this (extended) regular expression")
-        ->show_default();
+    command->add_option(
+        "--channels", options->channels,
+        "Only channels whose whole name matches this (extended) regular expression");
   };
   const auto add_output = [&](CommandLine* command) {
     command->add_option("--output", options->output, "File to write (default: stdout)");

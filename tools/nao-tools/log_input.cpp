@@ -64,12 +64,9 @@ void LogInput::warn_about_damage() const {
 void add_part_options(CommandLine& command, LogPart& part) {
   command.add_option("--from", part.from, "Since the log's first message, s");
   command.add_option("--to", part.to, "Since the log's first message, s");
-  command
-      .add_option("--channels", part.channels,
-                  "Only channels whose whole name matches this (extended) regular expression")
-      ->show_default();
-  command.add_option("--without", part.without, "Exclude channels that match this one")
-      ->show_default();
+  command.add_option("--channels", part.channels,
+                     "Only channels whose whole name matches this (extended) regular expression");
+  command.add_option("--without", part.without, "Exclude channels that match this one");
   command.add_option("--rename", part.renames, "OLD=NEW: give a channel another name (repeatable)");
 }
 

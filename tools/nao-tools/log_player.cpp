@@ -46,12 +46,10 @@ void add_log_player(CommandLine& log, Invocation& invocation) {
   CommandLine* command = log.add_subcommand(
       "play", "Publish a log on the bus again; scripts/replay knows the stack's bus");
   command->add_option("file", options->file, "Log of scripts/record")->required();
-  command->add_option("--speed", options->speed, "2 is twice as fast")->positive()->show_default();
+  command->add_option("--speed", options->speed, "2 is twice as fast")->positive();
   add_part_options(*command, options->part);
   command->add_flag("--loop", options->loops, "Repeat until Ctrl-C");
-  command->on_parsed([&invocation, options] {
-    invocation.run = [&invocation, options] { return play(invocation.common, *options); };
-  });
+  invocation.on(*command, [options](const auto& common) { return play(common, *options); });
 }
 
 }  // namespace nao

@@ -121,9 +121,7 @@ std::string LogStatistics::to_json() const {
     json.add("undecodable", int64_t{channel.num_undecodable});
     json.end();
   }
-  json.end();
-  json.end();
-  return json.text();
+  return json.take();
 }
 
 }  // namespace nao

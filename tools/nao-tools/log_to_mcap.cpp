@@ -3,7 +3,6 @@
 #include <string>
 #include <utility>
 
-#include "common/data_path.h"
 #include "inspection/foxglove_converter.h"
 #include "inspection/foxglove_schemas.h"
 #include "robot_model/robot_model.h"
@@ -41,7 +40,7 @@ class McapChannels {
 
 Undecodable convert_to_mcap(LogInput& log, const ChannelPattern& selected, const std::string& file,
                             const std::string& model, const std::string& robot) {
-  const RobotModel robot_model = RobotModel::load(data_path() / "robots" / model);
+  const RobotModel robot_model = RobotModel::find(model);
   FoxgloveConverter converter(robot_model, robot);
   McapWriter mcap(file);
   McapChannels channels(mcap);

@@ -23,7 +23,7 @@ MotionSession::MotionSession(const CommonOptions& common, const std::string& pro
       commands_(bus_, channels_) {
   loop_.on_readable(bus_.descriptor(), [this] { bus_.handle(); });
   bus_.subscribe<naolcm::command_result_t>(
-      channels_.command_result, Bus::Queue::kAll, [this](const naolcm::command_result_t& result) {
+      channels_.command_result, Bus::Queue::kAll, [this](const auto& result) {
         const bool is_own = result.source == source_ && result.command_id == command_.id;
         if (!exchange_ || !is_own) return;
         exchange_->handle_result(static_cast<ResultStatus>(result.status), result.reason,

@@ -7,7 +7,6 @@
 #include <string>
 
 #include "common/command_line.h"
-#include "common/data_path.h"
 #include "common/error.h"
 #include "policy/policy.h"
 #include "policy/policy_runner.h"
@@ -19,7 +18,7 @@ namespace {
 
 /** The robot in whose folder the manifest lies, or the named one. */
 RobotModel load_robot(const std::filesystem::path& manifest_file, const std::string& name) {
-  if (!name.empty()) return RobotModel::load(data_path() / "robots" / name);
+  if (!name.empty()) return RobotModel::find(name);
   const std::filesystem::path folder =
       std::filesystem::weakly_canonical(manifest_file).parent_path().parent_path().parent_path();
   if (!std::filesystem::exists(folder / "robot.yaml")) {
@@ -99,11 +98,9 @@ void add_policy_command(CommandLine& app, Invocation& invocation) {
   check->add_option("file", options->file, "Its policy.yaml, or the folder of it")->required();
   check->add_option("--model", options->model,
                     "Robot; default: the one in whose folder the file lies");
-  check->on_parsed([&invocation, options] {
-    invocation.run = [options] {
-      check_policy(options->file, options->model);
-      return 0;
-    };
+  invocation.on(*check, [options](const auto& /*common*/) {
+    check_policy(options->file, options->model);
+    return 0;
   });
 }
 

@@ -114,10 +114,8 @@ void add_record_command(CommandLine& app, Invocation& invocation) {
   const auto options = std::make_shared<RecordOptions>();
   CommandLine* record = app.add_subcommand(kRecordSubcommand.name, kRecordSubcommand.help);
   record->add_option("file", options->file, "Log to write; must not exist")->required();
-  record
-      ->add_option("--channels", options->channels,
-                   "Only channels whose whole name matches this regular expression")
-      ->show_default();
+  record->add_option("--channels", options->channels,
+                     "Only channels whose whole name matches this regular expression");
   record->add_option("--without", options->without, "Exclude channels that match this one");
   record->add_option("--for", options->duration, "Duration of the recording, s")->positive();
   CommandLine::Option* split =
@@ -130,9 +128,7 @@ void add_record_command(CommandLine& app, Invocation& invocation) {
                    "Keep only this many files, FILE.0 being the newest")
       ->positive()
       ->needs(split);
-  record->on_parsed([&invocation, options] {
-    invocation.run = [&invocation, options] { return run_record(invocation.common, *options); };
-  });
+  invocation.on(*record, [options](const auto& common) { return run_record(common, *options); });
 }
 
 }  // namespace nao

@@ -67,23 +67,20 @@ void add_robot_files_command(CommandLine& app, Invocation& invocation) {
   importer->add_option("urdf", options->urdf, "The URDF; of xacro its output")->required();
   importer->add_option("--name", options->name, "Name of the robot's folder")->required();
   importer->add_option("--tune", options->tune_minutes, "Then search a better gait, minutes")
-      ->not_negative()
-      ->show_default();
+      ->not_negative();
   importer->add_flag("!--no-simulation", options->is_simulated, "Do not simulate it");
-  importer->on_parsed([&invocation, options] {
-    invocation.run = [options] {
-      const auto folder = folder_of(options->folder, options->name);
-      print(import_robot(options->urdf, folder));
-      std::printf("wrote %s\n", folder.c_str());
-      if (!options->is_simulated) return 0;
-      const RobotCard card =
-          try_robot(folder, kSearchMinutes, options->tune_minutes, [](const std::string& line) {
-            std::printf("%s\n", line.c_str());
-            std::fflush(stdout);
-          });
-      std::printf("%s", to_text(card).c_str());
-      return 0;
-    };
+  invocation.on(*importer, [options](const auto& /*common*/) {
+    const auto folder = folder_of(options->folder, options->name);
+    print(import_robot(options->urdf, folder));
+    std::printf("wrote %s\n", folder.c_str());
+    if (!options->is_simulated) return 0;
+    const RobotCard card =
+        try_robot(folder, kSearchMinutes, options->tune_minutes, [](const std::string& line) {
+          std::printf("%s\n", line.c_str());
+          std::fflush(stdout);
+        });
+    std::printf("%s", to_text(card).c_str());
+    return 0;
   });
 
   CommandLine* check = robot->add_subcommand(
@@ -93,13 +90,11 @@ void add_robot_files_command(CommandLine& app, Invocation& invocation) {
     command->add_option("--folder", options->folder,
                         "Folder of the robots; default: robots/ of the installed data");
   }
-  check->on_parsed([&invocation, options] {
-    invocation.run = [options] {
-      const Findings findings = check_robot(folder_of(options->folder, options->name));
-      print(findings);
-      if (findings.empty()) std::printf("%s has everything\n", options->name.c_str());
-      return 0;
-    };
+  invocation.on(*check, [options](const auto& /*common*/) {
+    const Findings findings = check_robot(folder_of(options->folder, options->name));
+    print(findings);
+    if (findings.empty()) std::printf("%s has everything\n", options->name.c_str());
+    return 0;
   });
 }
 

@@ -11,7 +11,6 @@
 #include <string>
 
 #include "common/command_line.h"
-#include "common/data_path.h"
 #include "common/program.h"
 #include "common/wall_clock.h"
 #include "messages/named_joints.h"
@@ -38,13 +37,11 @@ class SelfTester {
       : model_(model), test_(model), session_(common, "nao-self-test") {
     const RobotChannels& channels = session_.channels();
     session_.bus().subscribe<naolcm::sensor_state_t>(
-        channels.sensor_state, Bus::Queue::kAll,
-        [this](const naolcm::sensor_state_t& message) { measure(message); });
+        channels.sensor_state, Bus::Queue::kAll, [this](const auto& message) { measure(message); });
     session_.bus().subscribe<naolcm::body_state_t>(
-        channels.body_state, Bus::Queue::kAll,
-        [this](const naolcm::body_state_t& message) { measure(message); });
+        channels.body_state, Bus::Queue::kAll, [this](const auto& message) { measure(message); });
     session_.bus().subscribe<naolcm::image_t>(channels.head_camera_image, Bus::Queue::kAll,
-                                              [this](const naolcm::image_t& image) {
+                                              [this](const auto& image) {
                                                 // Other receivers' images of other sizes say
                                                 // nothing more.
                                                 if (image.width != kImageWidth) return;
@@ -150,7 +147,7 @@ class SelfTester {
 };
 
 int run_self_test(const CommonOptions& common, const std::string& model_name) {
-  const RobotModel model = RobotModel::load(data_path() / "robots" / model_name);
+  const RobotModel model = RobotModel::find(model_name);
   SelfTester tester(common, model);
   const std::string fault = tester.execute();
   std::fprintf(stderr, "\r     \r");
@@ -172,9 +169,7 @@ void add_self_test_command(CommandLine& app, Invocation& invocation) {
   const auto model = std::make_shared<std::string>("nao");
   CommandLine* command = app.add_subcommand(kSelfTestSubcommand.name, kSelfTestSubcommand.help);
   add_model_option(*command, *model);
-  command->on_parsed([&invocation, model] {
-    invocation.run = [&invocation, model] { return run_self_test(invocation.common, *model); };
-  });
+  invocation.on(*command, [model](const auto& common) { return run_self_test(common, *model); });
 }
 
 }  // namespace nao

@@ -2,7 +2,6 @@
 #include <cstdio>
 #include <limits>
 #include <memory>
-#include <string>
 
 #include "common/bus.h"
 #include "common/command_line.h"
@@ -60,10 +59,8 @@ void add_spy_command(CommandLine& app, Invocation& invocation) {
   spy->add_option("--for", *duration, "Listening time before printing once and ending, s")
       ->positive();
   spy->add_flag("--json", *as_json, "As JSON, one line each time");
-  spy->on_parsed([&invocation, duration, as_json] {
-    invocation.run = [&invocation, duration, as_json] {
-      return run_spy(invocation.common, *duration, *as_json);
-    };
+  invocation.on(*spy, [duration, as_json](const auto& common) {
+    return run_spy(common, *duration, *as_json);
   });
 }
 

@@ -1,5 +1,3 @@
-#include <algorithm>
-#include <cmath>
 #include <vector>
 
 #include "tools/nao-trial/scenarios.h"
@@ -35,9 +33,7 @@ void do_something(ClosedLoop& trial) {
   }
 }
 
-}  // namespace
-
-std::vector<RunResult> AlarmsScenario::run(const ScenarioOptions& options, uint64_t seed) const {
+std::vector<RunResult> run_alarms(const ScenarioOptions& options, uint64_t seed) {
   const double duration = options.duration > 0 ? options.duration : kSessionDuration;
   ClosedLoop trial(options.trial, seed);
   int num_alarms = 0;
@@ -55,6 +51,15 @@ std::vector<RunResult> AlarmsScenario::run(const ScenarioOptions& options, uint6
   if (!result.is_success) result.failure = "predicted a fall without a push";
   result.metrics = {{"alarms", num_alarms}, {"hours", trial.time() / 3600}};
   return {result};
+}
+
+}  // namespace
+
+Scenario alarms_scenario() {
+  return {"alarms",
+          "Walk, change postures and turn joints for 10 minutes; count false fall predictions",
+          {{"hours", "h"}},
+          run_alarms};
 }
 
 }  // namespace nao::trial

@@ -1,9 +1,8 @@
-#include "tools/nao-trial/block_scenario.h"
+#include "tools/nao-trial/scenarios.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <string>
 
 namespace nao::trial {
 namespace {
@@ -86,15 +85,26 @@ RunResult act(const ScenarioOptions& options, uint64_t seed, const Action& actio
   return result;
 }
 
-}  // namespace
-
-std::vector<RunResult> BlockScenario::run(const ScenarioOptions& options, uint64_t seed) const {
+std::vector<RunResult> run_block(const ScenarioOptions& options, uint64_t seed) {
   std::vector<RunResult> results;
   for (const Action& action : options.trial.model->actions()) {
     const bool guards = action.kind == Action::Kind::kBlock || action.kind == Action::Kind::kDive;
     if (guards) results.push_back(act(options, seed, action));
   }
   return results;
+}
+
+}  // namespace
+
+Scenario block_scenario() {
+  return {"block",
+          "Block, dive left and dive right; stand again afterwards",
+          {{"block_s", "s"},
+           {"block_width_m", "m"},
+           {"dive_s", "s"},
+           {"dive_reach_m", "m"},
+           {"stand_again_s", "s"}},
+          run_block};
 }
 
 }  // namespace nao::trial

@@ -108,9 +108,7 @@ class Watch {
   size_t next_ = 0;
 };
 
-}  // namespace
-
-std::vector<RunResult> CommandsScenario::run(const ScenarioOptions& options, uint64_t seed) const {
+std::vector<RunResult> run_commands(const ScenarioOptions& options, uint64_t seed) {
   ClosedLoop trial(options.trial, seed);
   trial.run(1);
   RunResult result;
@@ -144,6 +142,15 @@ std::vector<RunResult> CommandsScenario::run(const ScenarioOptions& options, uin
   result.metrics.emplace_back("pushes", num_pushes);
   result.metrics.emplace_back("restarts", num_restarts);
   return {result};
+}
+
+}  // namespace
+
+Scenario commands_scenario() {
+  return {"commands",
+          "Answer 100 random commands in any mode, with pushes and restarts of the motion core",
+          {},
+          run_commands};
 }
 
 }  // namespace nao::trial

@@ -10,9 +10,7 @@ namespace {
 constexpr double kGetUpTimeout = 60;  // s, six tries and the waiting between
 constexpr int kMaxTries = 3;          // of a run that succeeds
 
-}  // namespace
-
-std::vector<RunResult> GetUpScenario::run(const ScenarioOptions& options, uint64_t seed) const {
+std::vector<RunResult> run_get_up(const ScenarioOptions& options, uint64_t seed) {
   ClosedLoop trial(options.trial, seed);
   RunResult result;
   // With odd seeds the robot is pushed over, with even ones it is placed on the ground.
@@ -46,6 +44,18 @@ std::vector<RunResult> GetUpScenario::run(const ScenarioOptions& options, uint64
   result.is_success = num_tries <= kMaxTries;
   if (!result.is_success) result.failure = "more than " + std::to_string(kMaxTries) + " tries";
   return {result};
+}
+
+}  // namespace
+
+Scenario get_up_scenario() {
+  return {"get-up",
+          "Get up after a fall, or from a random lying pose",
+          {{"time_s", "s"},
+           {"time_from_belly_s", "s"},
+           {"time_from_back_s", "s"},
+           {"time_from_side_s", "s"}},
+          run_get_up};
 }
 
 }  // namespace nao::trial

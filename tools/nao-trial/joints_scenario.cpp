@@ -34,9 +34,7 @@ Command random_joint_command(ClosedLoop& trial) {
   return {"", 0, change};
 }
 
-}  // namespace
-
-std::vector<RunResult> JointsScenario::run(const ScenarioOptions& options, uint64_t seed) const {
+std::vector<RunResult> run_joints(const ScenarioOptions& options, uint64_t seed) {
   const int num_commands = 100;
   ClosedLoopOptions trial_options = options.trial;
   trial_options.motion.gets_up = false;
@@ -87,6 +85,15 @@ std::vector<RunResult> JointsScenario::run(const ScenarioOptions& options, uint6
   result.is_success = result.failure.empty();
   result.metrics = {{"accepted", num_accepted}, {"refused", num_refused}};
   return {result};
+}
+
+}  // namespace
+
+Scenario joints_scenario() {
+  return {"joints",
+          "Execute 100 random joint commands without a fall, self-collision or jump",
+          {},
+          run_joints};
 }
 
 }  // namespace nao::trial

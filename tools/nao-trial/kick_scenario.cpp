@@ -1,4 +1,4 @@
-#include "tools/nao-trial/kick_scenario.h"
+#include "tools/nao-trial/scenarios.h"
 
 #include <algorithm>
 #include <cmath>
@@ -58,9 +58,7 @@ std::optional<double> told_direction(const CommandResult& end) {
   return std::stod(end.reason.arguments.at(0));
 }
 
-}  // namespace
-
-std::vector<RunResult> KickScenario::run(const ScenarioOptions& options, uint64_t seed) const {
+std::vector<RunResult> run_kick(const ScenarioOptions& options, uint64_t seed) {
   constexpr double kLeastWay = 2.5;  // m, of the ball
   constexpr double kStartX = -4;     // m, in the world: half a metre before the own goal line
   ClosedLoop trial(options.trial, seed);
@@ -147,7 +145,7 @@ std::vector<RunResult> KickScenario::run(const ScenarioOptions& options, uint64_
   return {result};
 }
 
-std::vector<RunResult> WalkKickScenario::run(const ScenarioOptions& options, uint64_t seed) const {
+std::vector<RunResult> run_walk_kick(const ScenarioOptions& options, uint64_t seed) {
   constexpr double kLeastWay = 0.8;  // m, of the ball
   const double vx = options.velocity.x() > 0 ? options.velocity.x() : 0.2;
   ClosedLoop trial(options.trial, seed);
@@ -196,6 +194,28 @@ std::vector<RunResult> WalkKickScenario::run(const ScenarioOptions& options, uin
     result.metrics.emplace_back("direction_error_deg", std::abs(off) / kDegree);
   }
   return {result};
+}
+
+}  // namespace
+
+Scenario kick_scenario() {
+  return {"kick",
+          "Kick a ball that lies before the left or right foot",
+          {{"ball_m", "m"},
+           {"direction_error_deg", "degrees"},
+           {"ball_speed_mps", "m/s"},
+           {"told_direction_error_deg", "degrees"},
+           {"missed_reported_done", "1"}},
+          run_kick,
+          "soccer"};
+}
+
+Scenario walk_kick_scenario() {
+  return {"walk-kick",
+          "Walk at --vx (0.2 m/s) to a ball, kick it in passing, walk on",
+          {{"ball_m", "m"}, {"direction_error_deg", "degrees"}},
+          run_walk_kick,
+          "soccer"};
 }
 
 }  // namespace nao::trial

@@ -1,4 +1,4 @@
-#include "tools/nao-trial/localise_scenario.h"
+#include "tools/nao-trial/scenarios.h"
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -235,16 +235,15 @@ void place(ClosedLoop& trial, const Vector2d& position, double turn) {
   trial.world().place_robot(0, nullptr, {position.x(), position.y(), 0}, &orientation);
 }
 
-}  // namespace
-
-std::map<std::string, std::string> LocaliseScenario::units() const {
+std::map<std::string, std::string> localisation_units() {
   std::map<std::string, std::string> units{
       {"position_error_m", "m"}, {"heading_error_deg", "degrees"}, {"recovery_s", "s"}};
   for (const auto& unit : FieldDetectionStatistics::units()) units.insert(unit);
   return units;
 }
 
-std::vector<RunResult> LocaliseScenario::run(const ScenarioOptions& options, uint64_t seed) const {
+std::vector<RunResult> run_localise(bool is_rendered, const ScenarioOptions& options,
+                                    uint64_t seed) {
   if (options.trial.model->cameras().empty()) {
     throw ConfigError(options.trial.model->name() + " has no camera");
   }
@@ -259,7 +258,7 @@ std::vector<RunResult> LocaliseScenario::run(const ScenarioOptions& options, uin
   const Pose2 start = told_start(true_pose(trial),
                                  [&](double low, double high) { return trial.random(low, high); });
   std::unique_ptr<Localisation> localisation;
-  if (is_rendered_) {
+  if (is_rendered) {
     localisation = std::make_unique<RenderedLocalisation>(trial, options.trial.scene, start);
   } else {
     localisation = std::make_unique<ModelledLocalisation>(trial, options.trial.scene, start, seed);
@@ -329,6 +328,17 @@ std::vector<RunResult> LocaliseScenario::run(const ScenarioOptions& options, uin
     results.push_back(placed);
   }
   return results;
+}
+
+}  // namespace
+
+Scenario localise_scenario(bool is_rendered) {
+  return with_perception(
+      {"localise",
+       "Estimate the pose on the field from rendered images for --duration (600 s), then after "
+       "being placed elsewhere",
+       localisation_units(), std::bind_front(run_localise, is_rendered)},
+      is_rendered);
 }
 
 }  // namespace nao::trial

@@ -5,16 +5,12 @@
 #include <string>
 
 #include "common/command_line.h"
-#include "common/data_path.h"
 #include "common/error.h"
 #include "common/output_file.h"
 #include "common/program.h"
 #include "sim/closed_loop/calibrate.h"
-#include "tools/nao-trial/scenario.h"
+#include "tools/nao-trial/scenarios.h"
 #include "tools/nao-trial/statistics.h"
-#ifdef NAO_TRIAL_HAS_VISION
-#include "tools/nao-trial/vision_scenarios.h"
-#endif
 
 namespace nao::trial {
 namespace {
@@ -47,8 +43,8 @@ void print(const RunResult& run, uint64_t seed) {
 Summary run_all(const Scenario& scenario, const ScenarioOptions& options,
                 const std::vector<uint64_t>& seeds, bool is_verbose) {
   Summary summary;
-  summary.scenario = scenario.name();
-  summary.units = scenario.units();
+  summary.scenario = scenario.name;
+  summary.units = scenario.units;
   for (uint64_t seed : seeds) {
     ScenarioOptions robot = options;
     // Each robot is calibrated under its own disturbances before its run.
@@ -95,87 +91,71 @@ int main(int argc, char** argv) {
   std::string teams = "2v2";
   std::string disturbances = "default";
   ScenarioOptions options;
-  std::string chosen;
+  const Scenario* chosen = nullptr;
+  std::vector<Scenario> all = scenarios();
 #ifdef NAO_TRIAL_HAS_VISION
-  add_vision_scenarios();
+  for (const Scenario& scenario : vision_scenarios()) all.push_back(scenario);
 #endif
-  for (const auto& scenario : scenarios()) {
-    nao::CommandLine* command = app.add_subcommand(scenario->name(), scenario->summary());
-    command->add_option("--seeds", seeds, "First and last seed, one run each")->show_default();
+  for (const Scenario& scenario : all) {
+    nao::CommandLine* command = app.add_subcommand(scenario.name, scenario.summary);
+    command->add_option("--seeds", seeds, "First and last seed, one run each");
     command->add_option("--json", json_file, "Write the summary to this file too");
     command->add_option("--plot", plot_file, "Draw the results to this SVG file (push-course)");
     nao::add_model_option(*command, model_name);
-    command
-        ->add_option("--duration", options.duration,
-                     "Duration of a run, s (0: the scenario's default)")
-        ->show_default();
+    command->add_option("--duration", options.duration,
+                        "Duration of a run, s (0: the scenario's default)");
     command->add_option("--vx", options.velocity.x(), "Commanded velocity ahead, m/s");
     command->add_option("--vy", options.velocity.y(), "To the left, m/s");
     command->add_option("--wz", options.velocity.z(), "Turning to the left, rad/s");
-    command->add_option("--teams", teams, "match: robots of the two teams, 1 to 5 each")
-        ->show_default();
-    command->add_option("--distance", options.distance, "Distance, m (0: the scenario's default)")
-        ->show_default();
-    command
-        ->add_option("--late", options.trial.missed_tick_probability,
-                     "Probability in each tick that motion misses it and up to three more")
-        ->show_default();
+    command->add_option("--teams", teams, "match: robots of the two teams, 1 to 5 each");
+    command->add_option("--distance", options.distance, "Distance, m (0: the scenario's default)");
+    command->add_option("--late", options.trial.missed_tick_probability,
+                        "Probability in each tick that motion misses it and up to three more");
     command
         ->add_option(
             "--latency", options.trial.command_latency_ticks,
             "Control ticks from a joint command to the motors (0: as the disturbances say)")
-        ->range(0, 10)
-        ->show_default();
+        ->range(0, 10);
     command->add_option(
         "--trace", options.trace_file,
         "walk, score, keep-goal, match: write what was true and what was known in the last seed "
         "to this file, CSV");
-    command
-        ->add_option("--engine", options.trial.engine,
-                     "Physics engine: fast, simbody, or mujoco where it was built")
-        ->show_default();
-    command
-        ->add_option(
-            "--disturbances", disturbances,
-            "Disturbances to draw for each seed: none, default, moderate, real, or entries of "
-            "real such as backlash,floor_slope")
-        ->show_default();
+    command->add_option("--engine", options.trial.engine,
+                        "Physics engine: fast, simbody, or mujoco where it was built");
+    command->add_option(
+        "--disturbances", disturbances,
+        "Disturbances to draw for each seed: none, default, moderate, real, or entries of "
+        "real such as backlash,floor_slope");
     command
         ->add_option("--calibrate", options.num_calibration_directions,
                      "Calibrate each robot before its run, standing in so many directions (0: not)")
-        ->range(0, 8)
-        ->show_default();
+        ->range(0, 8);
     command->add_option(
         "--policy", options.trial.motion.walk_policy,
         "Policy that walks instead of the gait, a folder in policies/ of the robot");
     command->add_flag("--ideal", options.trial.is_ideal,
                       "No noise or latency either: --disturbances none");
     command->add_flag("--verbose", is_verbose, "Print a line for each run");
-    command->on_parsed([&chosen, &scenario] { chosen = scenario->name(); });
+    command->on_parsed([&chosen, &scenario] { chosen = &scenario; });
   }
   return nao::run_program(app, common, argc, argv, [&] {
-    for (const auto& scenario : scenarios()) {
-      // Scenarios and their subcommands have the same names.
-      if (chosen != scenario->name()) continue;
-      options.trial.model = std::make_shared<nao::RobotModel>(
-          nao::RobotModel::load(nao::data_path() / "robots" / model_name));
-      if (options.trial.is_ideal) disturbances = "none";
-      options.trial.disturbances =
-          std::make_shared<nao::sim::DisturbanceSet>(nao::sim::DisturbanceSet::find(disturbances));
-      options.trial.scene = nao::SceneFile::find(scenario->scene());
-      options.team_sizes = parse_teams(teams);
-      options.is_for_plot = !plot_file.empty();
-      Summary summary = run_all(*scenario, options, parse_seeds(seeds), is_verbose);
-      summary.engine = options.trial.engine;
-      summary.disturbances = disturbances;
-      summary.model = model_name;
-      std::fputs(to_table(summary).c_str(), stdout);
-      if (!json_file.empty()) nao::replace_file(json_file, to_json(summary));
-      if (!plot_file.empty()) {
-        const std::string plot = scenario->plot(summary);
-        if (plot.empty()) throw nao::Error(chosen + " has no plot; omit --plot");
-        nao::replace_file(plot_file, plot);
-      }
+    const Scenario& scenario = *chosen;
+    options.trial.model = std::make_shared<nao::RobotModel>(nao::RobotModel::find(model_name));
+    if (options.trial.is_ideal) disturbances = "none";
+    options.trial.disturbances =
+        std::make_shared<nao::sim::DisturbanceSet>(nao::sim::DisturbanceSet::find(disturbances));
+    options.trial.scene = nao::SceneFile::find(scenario.scene);
+    options.team_sizes = parse_teams(teams);
+    options.is_for_plot = !plot_file.empty();
+    Summary summary = run_all(scenario, options, parse_seeds(seeds), is_verbose);
+    summary.engine = options.trial.engine;
+    summary.disturbances = disturbances;
+    summary.model = model_name;
+    std::fputs(to_table(summary).c_str(), stdout);
+    if (!json_file.empty()) nao::replace_file(json_file, to_json(summary));
+    if (!plot_file.empty()) {
+      if (!scenario.plot) throw nao::Error(scenario.name + " has no plot; omit --plot");
+      nao::replace_file(plot_file, scenario.plot(summary));
     }
   });
 }

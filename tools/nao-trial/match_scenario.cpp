@@ -1,7 +1,7 @@
-#include "tools/nao-trial/match_scenario.h"
+#include "tools/nao-trial/scenarios.h"
 
 #include <algorithm>
-#include <cmath>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -264,18 +264,29 @@ class Match {
   std::string trace_;
 };
 
-}  // namespace
-
-MatchScenario::MatchScenario(bool is_rendered, PerceptionFactory perception)
-    : PlayScenario("match",
-                   "Two teams (--teams) play by themselves, --duration (300 s) in two halves",
-                   is_rendered, std::move(perception)) {}
-
-std::vector<RunResult> MatchScenario::run(const ScenarioOptions& options, uint64_t seed) const {
-  Match match(options, perception_, seed);
+std::vector<RunResult> run_match(const PerceptionFactory& perception,
+                                 const ScenarioOptions& options, uint64_t seed) {
+  Match match(options, perception, seed);
   RunResult result;
   match.play(result);
   return {result};
+}
+
+}  // namespace
+
+Scenario match_scenario(bool is_rendered, const PerceptionFactory& perception) {
+  return with_perception(
+      {"match",
+       "Two teams (--teams) play by themselves, --duration (300 s) in two halves",
+       {{"goals", "1"},
+        {"outs", "1"},
+        {"kicks", "1"},
+        {"falls", "1"},
+        {"upright_ratio", "1"},
+        {"penalties", "1"},
+        {"longest_stuck_s", "s"}},
+       std::bind_front(run_match, perception)},
+      is_rendered);
 }
 
 }  // namespace nao::trial

@@ -1,10 +1,9 @@
-#include "tools/nao-trial/play_scenarios.h"
-
 #include <cmath>
-#include <utility>
+#include <functional>
 
 #include "tools/nao-trial/perception_model.h"
 #include "tools/nao-trial/play_trial.h"
+#include "tools/nao-trial/scenarios.h"
 
 namespace nao::trial {
 namespace {
@@ -70,28 +69,10 @@ std::string describe_end(const PlayTrial& play) {
   return "too slow, " + std::string(to_string(state.phase)) + " " + state.reason.code;
 }
 
-}  // namespace
-
-PlayScenario::PlayScenario(const std::string& name, const std::string& summary, bool is_rendered,
-                           PerceptionFactory perception)
-    : perception_(std::move(perception)),
-      name_(is_rendered ? name : name + "-error-model"),
-      summary_(is_rendered ? summary : summary + ", with an error model instead of images") {}
-
-ScoreScenario::ScoreScenario(bool is_rendered, PerceptionFactory perception)
-    : PlayScenario("score",
-                   "Score within --duration (90 s), ball and robot anywhere in the own half",
-                   is_rendered, std::move(perception)) {}
-
-KeepGoalScenario::KeepGoalScenario(bool is_rendered, PerceptionFactory perception)
-    : PlayScenario("keep-goal",
-                   "Keep out a shot from 2 m, up to 1.5 m/s at the goal line, aimed anywhere at "
-                   "the goal's mouth",
-                   is_rendered, std::move(perception)) {}
-
-std::vector<RunResult> ScoreScenario::run(const ScenarioOptions& options, uint64_t seed) const {
+std::vector<RunResult> run_score(const PerceptionFactory& perception,
+                                 const ScenarioOptions& options, uint64_t seed) {
   const double limit = options.duration > 0 ? options.duration : kTimeLimit;
-  const play::Field field = play::load_constants(*options.trial.model, scene()).field;
+  const play::Field field = play::load_constants(*options.trial.model, "soccer").field;
   Random random(seed ^ kPlacementSeed);
   const auto uniform = [&](double low, double high) { return random.uniform(low, high); };
   const auto anywhere = [&] {
@@ -102,7 +83,7 @@ std::vector<RunResult> ScoreScenario::run(const ScenarioOptions& options, uint64
   const Pose2 robot{position, random.uniform(-M_PI, M_PI)};
   Vector2d ball = anywhere();
   while ((ball - robot.position).norm() < kApart) ball = anywhere();
-  PlayTrial play(options.trial, seed, perception_, robot, told_start(robot, uniform), ball);
+  PlayTrial play(options.trial, seed, perception, robot, told_start(robot, uniform), ball);
   TracedSteps steps(play, options);
   play.command(Behavior::kScore);
   const double start = play.trial().time();
@@ -124,8 +105,9 @@ std::vector<RunResult> ScoreScenario::run(const ScenarioOptions& options, uint64
   return {result};
 }
 
-std::vector<RunResult> KeepGoalScenario::run(const ScenarioOptions& options, uint64_t seed) const {
-  const play::Field field = play::load_constants(*options.trial.model, scene()).field;
+std::vector<RunResult> run_keep_goal(const PerceptionFactory& perception,
+                                     const ScenarioOptions& options, uint64_t seed) {
+  const play::Field field = play::load_constants(*options.trial.model, "soccer").field;
   Random random(seed ^ kPlacementSeed);
   const auto uniform = [&](double low, double high) { return random.uniform(low, high); };
   const Vector2d goal(-0.5 * field.length, 0);
@@ -136,7 +118,7 @@ std::vector<RunResult> KeepGoalScenario::run(const ScenarioOptions& options, uin
   // The keeper stands before its goal, about in its middle.
   const double aside = random.uniform(-0.3, 0.3);
   const Pose2 robot{goal + Vector2d(0.5, aside), random.uniform(-0.3, 0.3)};
-  PlayTrial play(options.trial, seed, perception_, robot, told_start(robot, uniform), ball);
+  PlayTrial play(options.trial, seed, perception, robot, told_start(robot, uniform), ball);
   TracedSteps steps(play, options);
   play.command(Behavior::kKeepGoal);
   const double start = play.trial().time();
@@ -169,6 +151,34 @@ std::vector<RunResult> KeepGoalScenario::run(const ScenarioOptions& options, uin
   result.metrics = {
       {"time_s", play.trial().time() - shot}, {"shot_mps", speed}, {"aside_m", std::abs(crossing)}};
   return {result};
+}
+
+}  // namespace
+
+Scenario with_perception(Scenario scenario, bool is_rendered) {
+  scenario.scene = "soccer";
+  if (!is_rendered) {
+    scenario.name += "-error-model";
+    scenario.summary += ", with an error model instead of images";
+  }
+  return scenario;
+}
+
+Scenario score_scenario(bool is_rendered, const PerceptionFactory& perception) {
+  return with_perception({"score",
+                          "Score within --duration (90 s), ball and robot anywhere in the own half",
+                          {{"time_s", "s"}, {"kicks", "1"}, {"falls", "1"}},
+                          std::bind_front(run_score, perception)},
+                         is_rendered);
+}
+
+Scenario keep_goal_scenario(bool is_rendered, const PerceptionFactory& perception) {
+  return with_perception({"keep-goal",
+                          "Keep out a shot from 2 m, up to 1.5 m/s at the goal line, aimed "
+                          "anywhere at the goal's mouth",
+                          {{"time_s", "s"}, {"shot_mps", "m/s"}, {"aside_m", "m"}},
+                          std::bind_front(run_keep_goal, perception)},
+                         is_rendered);
 }
 
 PerceptionFactory perception_model() {

@@ -4,7 +4,6 @@
 
 #include <cmath>
 
-#include "common/error.h"
 #include "common/output_file.h"
 
 namespace nao::trial {

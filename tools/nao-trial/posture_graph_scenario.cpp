@@ -1,8 +1,5 @@
 #include <fmt/core.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "common/constants.h"
 #include "tools/nao-trial/scenarios.h"
 
@@ -36,10 +33,7 @@ std::string go(ClosedLoop& trial, const Posture& goal, RunResult& result) {
   return "";
 }
 
-}  // namespace
-
-std::vector<RunResult> PostureGraphScenario::run(const ScenarioOptions& options,
-                                                 uint64_t seed) const {
+std::vector<RunResult> run_posture_graph(const ScenarioOptions& options, uint64_t seed) {
   std::vector<RunResult> results;
   const auto& postures = options.trial.model->postures();
   // Tries every ordered pair of postures, each with a new robot, so that a failure does not affect
@@ -63,6 +57,15 @@ std::vector<RunResult> PostureGraphScenario::run(const ScenarioOptions& options,
     }
   }
   return results;
+}
+
+}  // namespace
+
+Scenario posture_graph_scenario() {
+  return {"posture-graph",
+          "Go from every posture to every other one",
+          {{"time_s", "s"}, {"deviation_deg", "degrees"}},
+          run_posture_graph};
 }
 
 }  // namespace nao::trial

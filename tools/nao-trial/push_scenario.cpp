@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "kinematics/pose2.h"
@@ -106,9 +104,7 @@ std::string text(double x, double y, const std::string& words) {
   return fmt::format("<text x=\"{}\" y=\"{}\">{}</text>\n", x, y, words);
 }
 
-}  // namespace
-
-std::map<std::string, std::string> PushCourseScenario::units() const {
+std::map<std::string, std::string> push_course_units() {
   std::map<std::string, std::string> units{{"withstood_Ns_per_kg", "N s/kg"}, {"warning_ms", "ms"}};
   for (const int count : {kNumDirections, kNumPlotDirections}) {
     for (int i = 0; i < count; ++i) units[boundary_name(i, count)] = "N s/kg";
@@ -116,8 +112,7 @@ std::map<std::string, std::string> PushCourseScenario::units() const {
   return units;
 }
 
-std::vector<RunResult> PushCourseScenario::run(const ScenarioOptions& options,
-                                               uint64_t seed) const {
+std::vector<RunResult> run_push_course(const ScenarioOptions& options, uint64_t seed) {
   const PushCourse course(options, seed);
   const int num_directions = options.is_for_plot ? kNumPlotDirections : kNumDirections;
   RunResult result;
@@ -133,7 +128,8 @@ std::vector<RunResult> PushCourseScenario::run(const ScenarioOptions& options,
   return {result};
 }
 
-std::string PushCourseScenario::plot(const Summary& summary) const {
+/** Greatest impulse withstood in every direction: median and minimum of the seeds. */
+std::string plot_push_course(const Summary& summary) {
   std::map<std::string, std::vector<double>> values;
   for (const RunResult& run : summary.runs) {
     for (const auto& [name, value] : run.metrics) values[name].push_back(value);
@@ -164,6 +160,17 @@ std::string PushCourseScenario::plot(const Summary& summary) const {
   svg += text(kPlotCenter - 25, 2 * kPlotCenter - 10, "backward");
   svg += text(10, kPlotCenter, "left");
   return svg + "</svg>\n";
+}
+
+}  // namespace
+
+Scenario push_course_scenario() {
+  return {"push-course",
+          "Withstand pushes at the torso in eight directions, standing or at --vx --vy --wz",
+          push_course_units(),
+          run_push_course,
+          "empty",
+          plot_push_course};
 }
 
 }  // namespace nao::trial

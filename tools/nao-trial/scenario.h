@@ -2,8 +2,8 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <map>
-#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -45,24 +45,18 @@ struct ScenarioOptions {
 
 struct Summary;
 
-/** A task of the robot. One seed gives one run, or several with labels. */
-class Scenario {
- public:
-  virtual ~Scenario() = default;
-  virtual const char* name() const = 0;
-  virtual const char* summary() const = 0;
-  /** Unit of each metric, "s" or "m/s"; "1" for counts. */
-  virtual std::map<std::string, std::string> units() const = 0;
-  virtual std::vector<RunResult> run(const ScenarioOptions& options, uint64_t seed) const = 0;
-  /** Plot of runs with is_for_plot, as SVG; empty if the scenario has none. */
-  virtual std::string plot(const Summary& /*summary*/) const { return ""; }
-  /** Name of the scene. */
-  virtual const char* scene() const { return "empty"; }
+/** A task of the robot. */
+struct Scenario {
+  /** Also that of the subcommand. */
+  std::string name;
+  std::string summary;
+  /** Unit of each metric, "s" or "m/s"; metrics without are counts. */
+  std::map<std::string, std::string> units;
+  /** One seed gives one run, or several with labels. */
+  std::function<std::vector<RunResult>(const ScenarioOptions& options, uint64_t seed)> run;
+  std::string scene = "empty";
+  /** Draws runs with is_for_plot, as SVG; empty if the scenario has no plot. */
+  std::function<std::string(const Summary& summary)> plot = {};
 };
-
-/** All scenarios, in the order in which --help lists them. */
-const std::vector<std::unique_ptr<Scenario>>& scenarios();
-/** Adds a scenario from a library that some builds lack. */
-void add_scenario(std::unique_ptr<Scenario> scenario);
 
 }  // namespace nao::trial

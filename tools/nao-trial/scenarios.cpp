@@ -1,50 +1,27 @@
 #include "tools/nao-trial/scenarios.h"
 
-#include "tools/nao-trial/block_scenario.h"
-#include "tools/nao-trial/kick_scenario.h"
-#include "tools/nao-trial/match_scenario.h"
-#include "tools/nao-trial/play_scenarios.h"
-#include "tools/nao-trial/teach_scenario.h"
-#include "tools/nao-trial/walk_scenarios.h"
-
 namespace nao::trial {
-namespace {
 
-std::vector<std::unique_ptr<Scenario>>& all_scenarios() {
-  static std::vector<std::unique_ptr<Scenario>> all = [] {
-    std::vector<std::unique_ptr<Scenario>> list;
-    list.push_back(std::make_unique<StandScenario>());
-    list.push_back(std::make_unique<PostureGraphScenario>());
-    list.push_back(std::make_unique<WalkScenario>());
-    list.push_back(std::make_unique<SprintScenario>());
-    list.push_back(std::make_unique<JoystickScenario>());
-    list.push_back(std::make_unique<MoveToScenario>());
-    list.push_back(std::make_unique<KickScenario>());
-    list.push_back(std::make_unique<WalkKickScenario>());
-    list.push_back(std::make_unique<BlockScenario>());
-    list.push_back(std::make_unique<JointsScenario>());
-    list.push_back(std::make_unique<PushCourseScenario>());
-    list.push_back(std::make_unique<GetUpScenario>());
-    list.push_back(std::make_unique<CommandsScenario>());
-    list.push_back(std::make_unique<AlarmsScenario>());
-    list.push_back(std::make_unique<TeachScenario>());
-    list.push_back(std::make_unique<TeachGoodScenario>());
-    list.push_back(std::make_unique<ScoreScenario>(false, perception_model()));
-    list.push_back(std::make_unique<KeepGoalScenario>(false, perception_model()));
-    list.push_back(std::make_unique<MatchScenario>(false, perception_model()));
-    return list;
-  }();
-  return all;
-}
-
-}  // namespace
-
-const std::vector<std::unique_ptr<Scenario>>& scenarios() {
-  return all_scenarios();
-}
-
-void add_scenario(std::unique_ptr<Scenario> scenario) {
-  all_scenarios().push_back(std::move(scenario));
+std::vector<Scenario> scenarios() {
+  return {stand_scenario(),
+          posture_graph_scenario(),
+          walk_scenario(),
+          sprint_scenario(),
+          joystick_scenario(),
+          move_to_scenario(),
+          kick_scenario(),
+          walk_kick_scenario(),
+          block_scenario(),
+          joints_scenario(),
+          push_course_scenario(),
+          get_up_scenario(),
+          commands_scenario(),
+          alarms_scenario(),
+          teach_scenario(),
+          teach_good_scenario(),
+          score_scenario(false, perception_model()),
+          keep_goal_scenario(false, perception_model()),
+          match_scenario(false, perception_model())};
 }
 
 }  // namespace nao::trial

@@ -1,95 +1,70 @@
 #pragma once
 
+#include <vector>
+
 #include "tools/nao-trial/scenario.h"
+#include "tools/nao-trial/trial_perception.h"
 
 namespace nao::trial {
 
 /** Stands still in StandInit. */
-class StandScenario : public Scenario {
- public:
-  const char* name() const override { return "stand"; }
-  const char* summary() const override { return "Stand still in StandInit for 60 s"; }
-  std::map<std::string, std::string> units() const override {
-    return {{"drift_mm", "mm"}, {"torso_height_m", "m"}};
-  }
-  std::vector<RunResult> run(const ScenarioOptions& options, uint64_t seed) const override;
-};
-
+Scenario stand_scenario();
 /** Moves from every posture to every other one. */
-class PostureGraphScenario : public Scenario {
- public:
-  const char* name() const override { return "posture-graph"; }
-  const char* summary() const override { return "Go from every posture to every other one"; }
-  std::map<std::string, std::string> units() const override {
-    return {{"time_s", "s"}, {"deviation_deg", "degrees"}};
-  }
-  std::vector<RunResult> run(const ScenarioOptions& options, uint64_t seed) const override;
-};
-
-/** Gets up after a push, or from a random lying pose. */
-class GetUpScenario : public Scenario {
- public:
-  const char* name() const override { return "get-up"; }
-  const char* summary() const override {
-    return "Get up after a fall, or from a random lying pose";
-  }
-  std::map<std::string, std::string> units() const override {
-    return {{"time_s", "s"},
-            {"time_from_belly_s", "s"},
-            {"time_from_back_s", "s"},
-            {"time_from_side_s", "s"}};
-  }
-  std::vector<RunResult> run(const ScenarioOptions& options, uint64_t seed) const override;
-};
-
-/** Pushes the torso in eight directions: the greatest impulse that the robot withstands standing
- * or, if a velocity is commanded, walking, at the time that is worst for it. */
-class PushCourseScenario : public Scenario {
- public:
-  const char* name() const override { return "push-course"; }
-  const char* summary() const override {
-    return "Withstand pushes at the torso in eight directions, standing or at --vx --vy --wz";
-  }
-  /** Directions are degrees to the left of straight ahead. */
-  std::map<std::string, std::string> units() const override;
-  std::vector<RunResult> run(const ScenarioOptions& options, uint64_t seed) const override;
-  /** Greatest impulse withstood in every direction: median and minimum of the seeds. */
-  std::string plot(const Summary& summary) const override;
-};
-
+Scenario posture_graph_scenario();
+/** Walks at one velocity, then stands. Fails below half of the velocity. */
+Scenario walk_scenario();
+/** Walks straight ahead at the maximum speed. */
+Scenario sprint_scenario();
+/** A joystick session: random starts, stops, reversals, diagonals and turns. */
+Scenario joystick_scenario();
+/** Walks to random poses by odometry. */
+Scenario move_to_scenario();
+/** Kicks a ball; odd seeds with the left foot. With half of the seeds the robot sees the ball, with
+ * every fifth one the ball lies beside the kick, which the result of the command must tell. */
+Scenario kick_scenario();
+/** Kicks a ball in passing and walks on. */
+Scenario walk_kick_scenario();
+/** A goalkeeper: blocks, or dives to one side and gets up. */
+Scenario block_scenario();
 /** Turns random joints by random angles; the robot must not tip over or collide with itself, and no
  * target may jump. */
-class JointsScenario : public Scenario {
- public:
-  const char* name() const override { return "joints"; }
-  const char* summary() const override {
-    return "Execute 100 random joint commands without a fall, self-collision or jump";
-  }
-  std::map<std::string, std::string> units() const override { return {}; }
-  std::vector<RunResult> run(const ScenarioOptions& options, uint64_t seed) const override;
-};
-
+Scenario joints_scenario();
+/** Pushes the torso in eight directions, in degrees to the left of straight ahead: the greatest
+ * impulse that the robot withstands standing or, if a velocity is commanded, walking, at the time
+ * that is worst for it. */
+Scenario push_course_scenario();
+/** Gets up after a push, or from a random lying pose. */
+Scenario get_up_scenario();
 /** Sends random commands in every mode, pushes the robot over, and restarts the motion core. */
-class CommandsScenario : public Scenario {
- public:
-  const char* name() const override { return "commands"; }
-  const char* summary() const override {
-    return "Answer 100 random commands in any mode, with pushes and restarts of the motion core";
-  }
-  std::map<std::string, std::string> units() const override { return {}; }
-  std::vector<RunResult> run(const ScenarioOptions& options, uint64_t seed) const override;
-};
-
+Scenario commands_scenario();
 /** Walks, changes postures and turns joints without a push: every fall prediction is a false alarm.
  */
-class AlarmsScenario : public Scenario {
- public:
-  const char* name() const override { return "alarms"; }
-  const char* summary() const override {
-    return "Walk, change postures and turn joints for 10 minutes; count false fall predictions";
-  }
-  std::map<std::string, std::string> units() const override { return {{"hours", "h"}}; }
-  std::vector<RunResult> run(const ScenarioOptions& options, uint64_t seed) const override;
-};
+Scenario alarms_scenario();
+/** Checks random taught motions as nao-motion-files does, plays those that it accepts with other
+ * draws of the disturbances, and those that it refuses, too, to count those that were refused
+ * without need. */
+Scenario teach_scenario();
+/** The same with hand-made motions, seeds 0 to 49: none may be refused. */
+Scenario teach_good_scenario();
+
+/** PerceptionModel with its usual errors. */
+PerceptionFactory perception_model();
+/** A scenario on the field. Its name and summary tell a perception without rendered images. */
+Scenario with_perception(Scenario scenario, bool is_rendered);
+/** Scores, with ball and robot anywhere in the robot's own half. */
+Scenario score_scenario(bool is_rendered, const PerceptionFactory& perception);
+/** Keeps the goal against one shot. */
+Scenario keep_goal_scenario(bool is_rendered, const PerceptionFactory& perception);
+/** A match of two teams of two that play by themselves, with a referee: two halves. */
+Scenario match_scenario(bool is_rendered, const PerceptionFactory& perception);
+/** Walks about the field as a driver would, and compares the estimated pose with the true one; then
+ * is placed elsewhere several times. @param is_rendered  nao-vision's perception on rendered
+ * images, or detections by FieldErrorModel. */
+Scenario localise_scenario(bool is_rendered);
+
+/** The scenarios of every build, in the order in which --help lists them. */
+std::vector<Scenario> scenarios();
+/** Those that need OpenCV or the renderer. */
+std::vector<Scenario> vision_scenarios();
 
 }  // namespace nao::trial

@@ -3,8 +3,9 @@
 #include <algorithm>
 
 namespace nao::trial {
+namespace {
 
-std::vector<RunResult> StandScenario::run(const ScenarioOptions& options, uint64_t seed) const {
+std::vector<RunResult> run_stand(const ScenarioOptions& options, uint64_t seed) {
   const double duration = options.duration > 0 ? options.duration : 60;
   ClosedLoop trial(options.trial, seed);
   // The robot first moves to its stand.
@@ -23,6 +24,15 @@ std::vector<RunResult> StandScenario::run(const ScenarioOptions& options, uint64
   if (!result.is_success) result.failure = "fell";
   result.metrics = {{"drift_mm", drift * 1e3}, {"torso_height_m", trial.torso_height()}};
   return {result};
+}
+
+}  // namespace
+
+Scenario stand_scenario() {
+  return {"stand",
+          "Stand still in StandInit for 60 s",
+          {{"drift_mm", "mm"}, {"torso_height_m", "m"}},
+          run_stand};
 }
 
 }  // namespace nao::trial

@@ -14,10 +14,6 @@ namespace {
 /** Most seeds listed for one cause of failure, in a line of the table. */
 constexpr size_t kMaxSeedsListed = 8;
 
-bool ends_with(const std::string& text, const std::string& end) {
-  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
-}
-
 // All values of each metric over the runs; a run may give a metric several times or not at all.
 std::map<std::string, std::vector<double>> collect(const Summary& summary) {
   std::map<std::string, std::vector<double>> values;
@@ -45,8 +41,8 @@ MetricStatistics calc_statistics(const std::string& name, std::vector<double> va
   // the others, such as errors, less.
   std::sort(values.begin(), values.end());
   const bool is_error = name.find("error") != std::string::npos;
-  if (!is_error && (ends_with(name, "_mps") || ends_with(name, "_Ns_per_kg") ||
-                    ends_with(name, "_m") || name.rfind("warning", 0) == 0)) {
+  if (!is_error && (name.ends_with("_mps") || name.ends_with("_Ns_per_kg") ||
+                    name.ends_with("_m") || name.starts_with("warning"))) {
     std::reverse(values.begin(), values.end());
   }
   const auto at_fraction = [&](double fraction) {
@@ -114,9 +110,7 @@ std::string to_json(const Summary& summary) {
     json.add("unit", unit_of(summary, name));
     json.end();
   }
-  json.end();
-  json.end();
-  return json.text() + "\n";
+  return json.take() + "\n";
 }
 
 }  // namespace nao::trial

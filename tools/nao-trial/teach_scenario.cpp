@@ -1,4 +1,4 @@
-#include "tools/nao-trial/teach_scenario.h"
+#include "tools/nao-trial/scenarios.h"
 
 #include <fmt/format.h>
 
@@ -63,13 +63,11 @@ RunResult check_and_play(const ScenarioOptions& options, const motion::ActionScr
   return result;
 }
 
-}  // namespace
-
-std::vector<RunResult> TeachScenario::run(const ScenarioOptions& options, uint64_t seed) const {
+std::vector<RunResult> run_teach(const ScenarioOptions& options, uint64_t seed) {
   return {check_and_play(options, draw_taught_motion(*options.trial.model, seed), seed)};
 }
 
-std::vector<RunResult> TeachGoodScenario::run(const ScenarioOptions& options, uint64_t seed) const {
+std::vector<RunResult> run_teach_good(const ScenarioOptions& options, uint64_t seed) {
   const auto motions = make_good_motions(*options.trial.model);
   const uint64_t number = seed % motions.size();
   RunResult result = check_and_play(options, motions[number], seed);
@@ -79,6 +77,22 @@ std::vector<RunResult> TeachGoodScenario::run(const ScenarioOptions& options, ui
         fmt::format("motion {} was refused: {} {}", number, result.label, result.failure);
   }
   return {result};
+}
+
+}  // namespace
+
+Scenario teach_scenario() {
+  return {"teach",
+          "Check and play taught motions: random ones, half of them near postures",
+          {{"check_s", "s"}},
+          run_teach};
+}
+
+Scenario teach_good_scenario() {
+  return {"teach-good",
+          "Check and play taught motions: hand-made ones, of which none may be refused",
+          {{"check_s", "s"}},
+          run_teach_good};
 }
 
 }  // namespace nao::trial

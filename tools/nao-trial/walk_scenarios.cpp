@@ -1,4 +1,4 @@
-#include "tools/nao-trial/walk_scenarios.h"
+#include "tools/nao-trial/scenarios.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,6 @@
 #include <sstream>
 
 #include "common/constants.h"
-#include "common/error.h"
 #include "common/output_file.h"
 #include "kinematics/pose2.h"
 #include "tools/nao-trial/fall_warning.h"
@@ -177,15 +176,7 @@ std::optional<std::string> find_early_end(const ClosedLoop& trial, int64_t walk)
   return std::nullopt;
 }
 
-}  // namespace
-
-std::map<std::string, std::string> WalkScenario::units() const {
-  return {{"speed_mps", "m/s"},    {"turning_radps", "rad/s"}, {"tracking_error", "1"},
-          {"odometry_error", "1"}, {"stopping_s", "s"},        {"stopping_mm", "mm"},
-          {"drift_5m_mm", "mm"},   {"upright_s", "s"}};
-}
-
-std::vector<RunResult> WalkScenario::run(const ScenarioOptions& options, uint64_t seed) const {
+std::vector<RunResult> run_walk(const ScenarioOptions& options, uint64_t seed) {
   const double duration = options.duration > 0 ? options.duration : 10;
   ClosedLoop trial(options.trial, seed);
   trial.run(kStand);
@@ -253,11 +244,7 @@ std::vector<RunResult> WalkScenario::run(const ScenarioOptions& options, uint64_
   return {result};
 }
 
-std::map<std::string, std::string> SprintScenario::units() const {
-  return {{"speed_mps", "m/s"}, {"drift_mm", "mm"}, {"odometry_error", "1"}};
-}
-
-std::vector<RunResult> SprintScenario::run(const ScenarioOptions& options, uint64_t seed) const {
+std::vector<RunResult> run_sprint(const ScenarioOptions& options, uint64_t seed) {
   const double distance = options.distance > 0 ? options.distance : 10;
   ClosedLoop trial(options.trial, seed);
   trial.run(kStand);
@@ -284,11 +271,7 @@ std::vector<RunResult> SprintScenario::run(const ScenarioOptions& options, uint6
   return {result};
 }
 
-std::map<std::string, std::string> JoystickScenario::units() const {
-  return {{"falls", "1"}, {"duration_s", "s"}};
-}
-
-std::vector<RunResult> JoystickScenario::run(const ScenarioOptions& options, uint64_t seed) const {
+std::vector<RunResult> run_joystick(const ScenarioOptions& options, uint64_t seed) {
   const double duration = options.duration > 0 ? options.duration : 600;
   ClosedLoop trial(options.trial, seed);
   const WalkLimits limits = trial.model().walk_limits();
@@ -315,15 +298,7 @@ std::vector<RunResult> JoystickScenario::run(const ScenarioOptions& options, uin
   return {result};
 }
 
-std::map<std::string, std::string> MoveToScenario::units() const {
-  return {{"odometry_miss_mm", "mm"},
-          {"odometry_miss_deg", "degrees"},
-          {"true_miss_mm", "mm"},
-          {"true_miss_deg", "degrees"},
-          {"time_s", "s"}};
-}
-
-std::vector<RunResult> MoveToScenario::run(const ScenarioOptions& options, uint64_t seed) const {
+std::vector<RunResult> run_move_to(const ScenarioOptions& options, uint64_t seed) {
   ClosedLoop trial(options.trial, seed);
   trial.run(kStand);
   const double distance = trial.random(0.1, 2);
@@ -370,6 +345,47 @@ std::vector<RunResult> MoveToScenario::run(const ScenarioOptions& options, uint6
                     {"true_miss_deg", turn_miss(start, true_pose(trial))},
                     {"time_s", time}};
   return {result};
+}
+
+}  // namespace
+
+Scenario walk_scenario() {
+  return {"walk",
+          "Walk at --vx --vy --wz for --duration (10 s), then stand",
+          {{"speed_mps", "m/s"},
+           {"turning_radps", "rad/s"},
+           {"tracking_error", "1"},
+           {"odometry_error", "1"},
+           {"stopping_s", "s"},
+           {"stopping_mm", "mm"},
+           {"drift_5m_mm", "mm"},
+           {"upright_s", "s"}},
+          run_walk};
+}
+
+Scenario sprint_scenario() {
+  return {"sprint",
+          "Walk --distance (10 m) ahead at the maximum speed; fails with the torso below 0.20 m",
+          {{"speed_mps", "m/s"}, {"drift_mm", "mm"}, {"odometry_error", "1"}},
+          run_sprint};
+}
+
+Scenario joystick_scenario() {
+  return {"joystick",
+          "Walk with random joystick input for --duration (600 s)",
+          {{"falls", "1"}, {"duration_s", "s"}},
+          run_joystick};
+}
+
+Scenario move_to_scenario() {
+  return {"move-to",
+          "Move to a random pose up to 2 m away",
+          {{"odometry_miss_mm", "mm"},
+           {"odometry_miss_deg", "degrees"},
+           {"true_miss_mm", "mm"},
+           {"true_miss_deg", "degrees"},
+           {"time_s", "s"}},
+          run_move_to};
 }
 
 }  // namespace nao::trial

@@ -25,6 +25,7 @@
 #include "common/channels.h"
 #include "common/command_line.h"
 #include "common/error.h"
+#include "common/joined.h"
 #include "common/local_multicast.h"
 #include "common/program.h"
 #include "common/wall_clock.h"
@@ -98,10 +99,9 @@ std::string interface_with(const in_addr& address) {
 std::optional<double> echo_time(Bus& bus) {
   const int64_t own_id = wall_utime();
   bool has_arrived = false;
-  bus.subscribe<naolcm::daemon_status_t>(
-      kEchoChannel, Bus::Queue::kAll, [&](const naolcm::daemon_status_t& status) {
-        has_arrived |= status.wall_utime == own_id && status.process_id == getpid();
-      });
+  bus.subscribe<naolcm::daemon_status_t>(kEchoChannel, Bus::Queue::kAll, [&](const auto& status) {
+    has_arrived |= status.wall_utime == own_id && status.process_id == getpid();
+  });
   naolcm::daemon_status_t status{};
   status.wall_utime = own_id;
   status.program = "nao-bus";
@@ -124,7 +124,7 @@ std::map<std::string, HostReport> listen_for_hosts(Bus& bus, BusListener& listen
                                                    ChannelOwners& owners) {
   std::map<std::string, HostReport> hosts;
   bus.subscribe<naolcm::daemon_status_t>(
-      kDaemonStatusChannel, Bus::Queue::kAll, [&hosts](const naolcm::daemon_status_t& status) {
+      kDaemonStatusChannel, Bus::Queue::kAll, [&hosts](const auto& status) {
         HostReport& host = hosts[status.host];
         host.processes[status.program].insert(status.process_id);
         const double difference = static_cast<double>(wall_utime() - status.wall_utime) * 1e-6;
@@ -150,18 +150,12 @@ void report_buffer() {
                           "net.core.rmem_max=2097152");
 }
 
-std::string join(const std::vector<std::string>& words) {
-  std::string list;
-  for (const std::string& word : words) list += (list.empty() ? "" : ", ") + word;
-  return list;
-}
-
 /** @return false if two systems share the bus. */
 bool report_owners(const ChannelOwners& owners) {
   const std::vector<std::string> shared = owners.find_shared();
   for (const std::string& channel : shared) {
     std::printf("FAIL  two systems share this bus: two programs publish on %s: %s\n",
-                channel.c_str(), join(owners.owners_of(channel)).c_str());
+                channel.c_str(), joined(owners.owners_of(channel)).c_str());
   }
   if (!shared.empty()) std::printf("      fix it: %s\n", kSeparateSystems);
   return shared.empty();
@@ -188,7 +182,7 @@ bool check_silence(BusListener& listener, const std::vector<std::string>& channe
   for (const std::string& channel : channels) {
     if (!is_taken(channel)) continue;
     std::printf("FAIL  another system publishes on %s already: %s\n", channel.c_str(),
-                join(owners.owners_of(channel)).c_str());
+                joined(owners.owners_of(channel)).c_str());
   }
   std::printf("      fix it: end it, or %s\n", kSeparateSystems);
   return false;
@@ -292,11 +286,8 @@ void add_bus_command(CommandLine& app, Invocation& invocation) {
       "--own", check->own_channels,
       "Channels that a system is about to publish, such as NAO_SENSOR_STATE: nobody may "
       "publish on them yet (repeatable)");
-  bus->on_parsed([&invocation, check] {
-    invocation.run = [&invocation, check] {
-      return run_bus_check(invocation.common.lcm_url, *check);
-    };
-  });
+  invocation.on(*bus,
+                [check](const auto& common) { return run_bus_check(common.lcm_url, *check); });
 }
 
 }  // namespace nao

@@ -35,11 +35,10 @@ Conversation::Conversation(const CommonOptions& common, std::string name,
 }
 
 void Conversation::take_results(const std::string& channel) {
-  bus_.subscribe<naolcm::command_result_t>(
-      channel, Bus::Queue::kAll, [this](const naolcm::command_result_t& result) {
-        if (result.source != source_ || result.command_id != command_id_) return;
-        handle_result(static_cast<ResultStatus>(result.status), result.reason);
-      });
+  bus_.subscribe<naolcm::command_result_t>(channel, Bus::Queue::kAll, [this](const auto& result) {
+    if (result.source != source_ || result.command_id != command_id_) return;
+    handle_result(static_cast<ResultStatus>(result.status), result.reason);
+  });
 }
 
 int Conversation::run_walk(naolcm::walk_command_t command, double duration) {

@@ -58,8 +58,7 @@ void print_json(const naoremote::Clients& clients) {
     json.add("num_skipped", static_cast<int64_t>(client.num_skipped()));
     json.end();
   }
-  json.end();
-  std::printf("%s\n", json.text().c_str());
+  std::printf("%s\n", json.take().c_str());
 }
 
 void print_table(const naoremote::Clients& clients) {
@@ -97,22 +96,19 @@ void add_driver_commands(CommandLine& app, Invocation& invocation) {
       "driver", "List and change who drives from a phone (on the gateway's host)");
   driver->require_subcommand();
   const auto options = std::make_shared<DriverOptions>();
-  driver->add_option("--port", options->port, "TCP port of the gateway")->show_default();
+  driver->add_option("--port", options->port, "TCP port of the gateway");
 
   CommandLine* listing =
       driver->add_subcommand("list", "List the connected clients and the current driver");
   listing->add_flag("--json", options->as_json, "As JSON");
-  listing->on_parsed(
-      [&invocation, options] { invocation.run = [options] { return list(*options); }; });
+  invocation.on(*listing, [options](const auto& /*common*/) { return list(*options); });
 
   const auto add = [&](const std::string& name, const std::string& description,
                        Operate::Operation operation) {
     CommandLine* subcommand = driver->add_subcommand(name, description);
-    subcommand->on_parsed([&invocation, options, operation, name] {
-      invocation.run = [options, operation, name] {
-        Response response;
-        return run_operation(*options, operation, name, response);
-      };
+    invocation.on(*subcommand, [options, operation, name](const auto& /*common*/) {
+      Response response;
+      return run_operation(*options, operation, name, response);
     });
     return subcommand;
   };

@@ -116,10 +116,8 @@ void add_invite_command(CommandLine& app, Invocation& invocation) {
       "from anywhere, over nao-relay: docs/anywhere.md");
   const auto options = std::make_shared<InviteOptions>();
   command->add_option("--role", options->role, "What its phones may do")
-      ->one_of({"drive", "watch", "operate"})
-      ->show_default();
-  command->add_option("--for", options->time, "How long it is valid: 30min, 2h, 7d")
-      ->show_default();
+      ->one_of({"drive", "watch", "operate"});
+  command->add_option("--for", options->time, "How long it is valid: 30min, 2h, 7d");
   command->add_flag("--list", options->lists, "Show the valid invitations instead");
   command->add_option("--revoke", options->revoked,
                       "Withdraw the invitation of this number, or all, instead");

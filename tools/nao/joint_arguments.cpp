@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <cstdlib>
-#include <numbers>
 
 #include "common/constants.h"
 #include "common/error.h"

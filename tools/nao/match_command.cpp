@@ -49,7 +49,7 @@ int show(const CommonOptions& common) {
   Bus bus(common.lcm_url);
   std::string text;
   bus.subscribe<naolcm::match_state_t>(kMatchStateChannel, Bus::Queue::kLatest,
-                                       [&](const naolcm::match_state_t& message) {
+                                       [&](const auto& message) {
                                          text = to_text(to_match_state(message));
                                          loop.stop("answer");
                                        });
@@ -77,9 +77,7 @@ CommandLine* add_operation(CommandLine& match, Invocation& invocation, MatchOper
   if (needs_robot(operation)) {
     subcommand->add_option("name", command->robot, "The robot's name")->required();
   }
-  subcommand->on_parsed([&invocation, command] {
-    invocation.run = [&invocation, command] { return overrule(invocation.common, *command); };
-  });
+  invocation.on(*subcommand, [command](const auto& common) { return overrule(common, *command); });
   return subcommand;
 }
 
@@ -89,8 +87,7 @@ void add_match_command(CommandLine& app, Invocation& invocation) {
   CommandLine* match = app.add_subcommand("match", "Show a match, or overrule its referee");
   match->require_subcommand();
   CommandLine* shown = match->add_subcommand("show", "Phase, clock, score, players");
-  shown->on_parsed(
-      [&invocation] { invocation.run = [&invocation] { return show(invocation.common); }; });
+  invocation.on(*shown, show);
   using enum MatchOperation;
   add_operation(*match, invocation, kStart, "Begin, with the kick-off of the first half");
   add_operation(*match, invocation, kKickOff, "A team kicks off anew");

@@ -44,8 +44,7 @@ std::optional<MotionFileResult> ask_motion_files(const CommonOptions& common,
   std::optional<MotionFileResult> answer;
   double last_heard = monotonic_seconds();
   bus.subscribe<naolcm::motion_file_result_t>(
-      channels.motion_file_result, Bus::Queue::kAll,
-      [&](const naolcm::motion_file_result_t& message) {
+      channels.motion_file_result, Bus::Queue::kAll, [&](const auto& message) {
         last_heard = monotonic_seconds();
         const auto result = from_message(message);
         if (!result || result->source != command.source || result->id != command.id) return;
@@ -140,9 +139,7 @@ void add_motion_command(CommandLine& app, Invocation& invocation) {
   const auto add = [&](const std::string& name, const std::string& help,
                        std::function<int(const CommonOptions&)> run) {
     CommandLine* subcommand = motion->add_subcommand(name, help);
-    subcommand->on_parsed([&invocation, run = std::move(run)] {
-      invocation.run = [&invocation, run] { return run(invocation.common); };
-    });
+    invocation.on(*subcommand, std::move(run));
     return subcommand;
   };
   const auto add_file = [&options](CommandLine* subcommand) {

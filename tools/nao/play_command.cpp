@@ -1,7 +1,6 @@
 // nao play: behaviors, which nao-play executes.
 #include "messages/play_command.h"
 
-#include <cstdio>
 #include <memory>
 #include <string>
 #include <vector>
@@ -19,12 +18,12 @@ struct PlayArguments {
   WaitOptions wait;
 };
 
-int play(const Invocation& invocation, const PlayArguments& arguments) {
+int play(const CommonOptions& common, const PlayArguments& arguments) {
   PlayCommand command{*find_behavior(arguments.behavior)};
   if (arguments.target.size() == 2) {
     command.target_in_odometry = {arguments.target[0], arguments.target[1]};
   }
-  Conversation conversation(invocation.common, "play " + arguments.behavior, "nao-play");
+  Conversation conversation(common, "play " + arguments.behavior, "nao-play");
   return conversation.run_command(conversation.channels().play_command, to_message(command),
                                   arguments.wait);
 }
@@ -51,9 +50,7 @@ void add_play_command(CommandLine& app, Invocation& invocation) {
       ->separated_by(',')
       ->count(2);
   add_wait_options(*command, arguments->wait);
-  command->on_parsed([&invocation, arguments] {
-    invocation.run = [&invocation, arguments] { return play(invocation, *arguments); };
-  });
+  invocation.on(*command, [arguments](const auto& common) { return play(common, *arguments); });
 }
 
 }  // namespace nao

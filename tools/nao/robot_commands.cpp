@@ -9,7 +9,6 @@
 #include <naolcm/stop_command_t.hpp>
 #include <naolcm/walk_command_t.hpp>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "common/command_line.h"
@@ -40,11 +39,9 @@ void add_walk(CommandLine& app, Invocation& invocation) {
       ->check(fault_unless_finite);
   walk->add_option("--for", *duration, "Duration of the walk before the robot stands, s")
       ->positive();
-  walk->on_parsed([&invocation, command, duration] {
-    invocation.run = [&invocation, command, duration] {
-      return Conversation(invocation.common, "walk", "nao-motion", CommandExchange::kWalkTiming)
-          .run_walk(*command, *duration);
-    };
+  invocation.on(*walk, [command, duration](const auto& common) {
+    return Conversation(common, "walk", "nao-motion", CommandExchange::kWalkTiming)
+        .run_walk(*command, *duration);
   });
 }
 
@@ -55,8 +52,7 @@ void add_move_to(CommandLine& app, Invocation& invocation) {
   CommandLine* move_to = app.add_subcommand("move-to", "Walk to a pose in the robot's frame");
   move_to->add_option("x", command->x, "Ahead, m")->required()->check(fault_unless_finite);
   move_to->add_option("y", command->y, "To the left, m")->required()->check(fault_unless_finite);
-  move_to->add_option("theta", *theta, "Final heading, counterclockwise, rad, or such as 90deg")
-      ->show_default();
+  move_to->add_option("theta", *theta, "Final heading, counterclockwise, rad, or such as 90deg");
   add_wait_options(*move_to, *wait);
   move_to->on_parsed([&invocation, command, theta, wait] {
     try {
@@ -78,14 +74,11 @@ void add_posture(CommandLine& app, Invocation& invocation) {
   CommandLine* posture = app.add_subcommand("posture", "Go to a posture: Stand, Crouch, Sit ...");
   posture->add_option("name", command->posture, "Name as in robots/nao/postures.yaml")->required();
   posture->add_option("--speed", command->speed, "Fraction of the maximum speed, above 0 up to 1")
-      ->check(fault_unless_finite)
-      ->show_default();
+      ->check(fault_unless_finite);
   add_wait_options(*posture, *wait);
-  posture->on_parsed([&invocation, command, wait] {
-    invocation.run = [&invocation, command, wait] {
-      Conversation conversation(invocation.common, "posture " + command->posture);
-      return conversation.run_command(conversation.channels().posture_command, *command, *wait);
-    };
+  invocation.on(*posture, [command, wait](const auto& common) {
+    Conversation conversation(common, "posture " + command->posture);
+    return conversation.run_command(conversation.channels().posture_command, *command, *wait);
   });
 }
 
@@ -101,8 +94,7 @@ void add_joint(CommandLine& app, Invocation& invocation) {
       ->add_option("joints", *arguments, "Pairs of a joint and +, - or = with an angle, rad or deg")
       ->required();
   joint->add_option("--speed", command->speed, "Fraction of the maximum speed, above 0 up to 1")
-      ->check(fault_unless_finite)
-      ->show_default();
+      ->check(fault_unless_finite);
   joint->add_flag("--allow-tipping", *allow_tipping, "Execute it even if the robot tips over");
   add_wait_options(*joint, *wait);
   joint->on_parsed([&invocation, command, allow_tipping, arguments, wait] {
@@ -157,12 +149,10 @@ void add_stop(CommandLine& app, Invocation& invocation) {
   auto wait = std::make_shared<WaitOptions>();
   CommandLine* stop = app.add_subcommand("stop", "End any motion");
   add_wait_options(*stop, *wait);
-  stop->on_parsed([&invocation, wait] {
-    invocation.run = [&invocation, wait] {
-      Conversation conversation(invocation.common, "stop");
-      return conversation.run_command(conversation.channels().stop_command,
-                                      naolcm::stop_command_t(), *wait);
-    };
+  invocation.on(*stop, [wait](const auto& common) {
+    Conversation conversation(common, "stop");
+    return conversation.run_command(conversation.channels().stop_command, naolcm::stop_command_t(),
+                                    *wait);
   });
 }
 

@@ -4,6 +4,7 @@
 
 #include "common/command_line.h"
 #include "common/error.h"
+#include "common/joined.h"
 #include "messages/light_command.h"
 #include "messages/speech_command.h"
 #include "tools/nao/color_argument.h"
@@ -14,12 +15,6 @@ namespace nao {
 namespace {
 
 using Operation = SpeechCommand::Operation;
-
-std::string join_words(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : " ") + word;
-  return text;
-}
 
 void add_say(CommandLine& app, Invocation& invocation) {
   struct Options {
@@ -34,9 +29,8 @@ void add_say(CommandLine& app, Invocation& invocation) {
   say->add_option("text", options->words, "Text, at most 1000 bytes");
   say->add_option("--language", options->command.language,
                   "Language, such as de (default: nao-speaker's)");
-  say->add_option("--volume", options->command.volume, "Loudness, 0 to 1")->show_default();
-  say->add_option("--rate", options->command.rate, "Speed relative to normal, 0.5 to 2")
-      ->show_default();
+  say->add_option("--volume", options->command.volume, "Loudness, 0 to 1");
+  say->add_option("--rate", options->command.rate, "Speed relative to normal, 0.5 to 2");
   say->add_flag("--after", options->follows,
                 "Speak it after what is being said, instead of replacing that");
   say->add_flag("--stop", options->stops, "End what is being said, and what waits");
@@ -45,7 +39,7 @@ void add_say(CommandLine& app, Invocation& invocation) {
     if (options->words.empty() != options->stops) {
       throw UsageError("text", "give either a text or --stop");
     }
-    options->command.text = join_words(options->words);
+    options->command.text = joined(options->words, {}, " ");
     options->command.operation = options->stops     ? Operation::kStop
                                  : options->follows ? Operation::kSayAfter
                                                     : Operation::kSay;

@@ -106,9 +106,7 @@ std::string to_json(const naolcm::robot_state_t& robot, const naolcm::motion_sta
   json.add("wz", motion.wz);
   json.add("stiffness", motion.stiffness);
   json.add("last_refusal", motion.last_refusal);
-  json.end();
-  json.end();
-  return json.text() + "\n";
+  return json.take() + "\n";
 }
 
 int run_state(const CommonOptions& common, bool as_json, bool watches) {
@@ -116,12 +114,10 @@ int run_state(const CommonOptions& common, bool as_json, bool watches) {
   Bus bus(common.lcm_url);
   const RobotChannels channels(common.robot);
   RobotReport report;
-  bus.subscribe<naolcm::robot_state_t>(
-      channels.robot_state, Bus::Queue::kLatest,
-      [&report](const naolcm::robot_state_t& state) { report.robot = state; });
-  bus.subscribe<naolcm::motion_state_t>(
-      channels.motion_state, Bus::Queue::kLatest,
-      [&report](const naolcm::motion_state_t& state) { report.motion = state; });
+  bus.subscribe<naolcm::robot_state_t>(channels.robot_state, Bus::Queue::kLatest,
+                                       [&report](const auto& state) { report.robot = state; });
+  bus.subscribe<naolcm::motion_state_t>(channels.motion_state, Bus::Queue::kLatest,
+                                        [&report](const auto& state) { report.motion = state; });
   double last_complete = monotonic_seconds();
   bool is_silent = false;
   loop.on_readable(bus.descriptor(), [&bus] { bus.handle(); });
@@ -159,10 +155,8 @@ void add_state_command(CommandLine& app, Invocation& invocation) {
       app.add_subcommand("state", "Show the robot's motion state and joint angles");
   state->add_flag("--json", *as_json, "One line of JSON, fields as in the messages");
   state->add_flag("--watch", *watches, "Repeat five times a second until Ctrl-C");
-  state->on_parsed([&invocation, as_json, watches] {
-    invocation.run = [&invocation, as_json, watches] {
-      return run_state(invocation.common, *as_json, *watches);
-    };
+  invocation.on(*state, [as_json, watches](const auto& common) {
+    return run_state(common, *as_json, *watches);
   });
 }
 

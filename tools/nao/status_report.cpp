@@ -47,13 +47,12 @@ class StatusListener {
  public:
   explicit StatusListener(const CommonOptions& common)
       : bus_(common.lcm_url), robot_(common.robot) {
-    bus_.subscribe<naolcm::body_state_t>(
-        RobotChannels(robot_).body_state, Bus::Queue::kLatest,
-        [this](const naolcm::body_state_t& body) { body_ = body; });
+    bus_.subscribe<naolcm::body_state_t>(RobotChannels(robot_).body_state, Bus::Queue::kLatest,
+                                         [this](const auto& body) { body_ = body; });
     std::array<char, 256> host{};
     if (gethostname(host.data(), host.size() - 1) == 0) host_ = host.data();
     bus_.subscribe<naolcm::daemon_status_t>(
-        kDaemonStatusChannel, Bus::Queue::kAll, [this](const naolcm::daemon_status_t& status) {
+        kDaemonStatusChannel, Bus::Queue::kAll, [this](const auto& status) {
           const auto [entry, is_new] =
               programs_.try_emplace({status.program, status.host, status.process_id});
           entry->second.status = status;
@@ -144,8 +143,7 @@ class StatusListener {
       json.end();
       json.end();
     }
-    json.end();
-    return json.text() + "\n";
+    return json.take() + "\n";
   }
 
  private:
@@ -232,11 +230,9 @@ void add_status_command(CommandLine& app, Invocation& invocation) {
       ->separated_by(',');
   status->add_flag("--this-host", *is_this_host_only,
                    "With --wait: only programs of this host count");
-  status->add_option("--timeout", *timeout, "Longest wait, s")->positive()->show_default();
-  status->on_parsed([&invocation, wanted, is_this_host_only, timeout, as_json] {
-    invocation.run = [&invocation, wanted, is_this_host_only, timeout, as_json] {
-      return run_status(invocation.common, *wanted, *is_this_host_only, *timeout, *as_json);
-    };
+  status->add_option("--timeout", *timeout, "Longest wait, s")->positive();
+  invocation.on(*status, [wanted, is_this_host_only, timeout, as_json](const auto& common) {
+    return run_status(common, *wanted, *is_this_host_only, *timeout, *as_json);
   });
 }
 

@@ -2,12 +2,12 @@
 
 #include <functional>
 #include <string>
+#include <utility>
 
+#include "common/command_line.h"
 #include "common/program.h"
 
 namespace nao {
-
-class CommandLine;
 
 /** Time without a message after which a program is reported as unavailable, s. Chosen: many times
  * the period of its messages. */
@@ -18,6 +18,12 @@ struct Invocation {
   CommonOptions common;
   /** Executes the subcommand. @return The exit status: 0 done, 1 refused, failed or no answer. */
   std::function<int()> run;
+
+  /** `act` is executed if the subcommand is named. */
+  void on(CommandLine& subcommand, std::function<int(const CommonOptions&)> act) {
+    subcommand.on_parsed(
+        [this, act = std::move(act)] { run = [this, act] { return act(common); }; });
+  }
 };
 
 /** Adds walk, move-to, posture, joint, action and stop. The invocation must outlive parsing. */

@@ -28,10 +28,8 @@ int execute_tools(const std::string& subcommand, char** arguments) {
 void add_tools_commands(CommandLine& app, Invocation& invocation, char** arguments) {
   for (const ToolsSubcommand* subcommand : kToolsSubcommands) {
     CommandLine* command = app.add_delegated_subcommand(subcommand->name, subcommand->help);
-    command->on_parsed([&invocation, subcommand, arguments] {
-      invocation.run = [subcommand, arguments] {
-        return execute_tools(subcommand->name, arguments);
-      };
+    invocation.on(*command, [subcommand, arguments](const auto& /*common*/) {
+      return execute_tools(subcommand->name, arguments);
     });
   }
 }

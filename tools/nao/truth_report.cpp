@@ -89,16 +89,14 @@ std::string to_json(const naolcm::world_truth_t& truth) {
   json.add("position_ball_in_world", truth.position_ball_in_world, 3);
   json.add("velocity_ball_in_world", truth.velocity_ball_in_world, 3);
   json.add("num_contacts", truth.num_contacts);
-  json.end();
-  return json.text() + "\n";
+  return json.take() + "\n";
 }
 
 int run_show(const CommonOptions& common, bool as_json) {
   Bus bus(common.lcm_url);
   std::optional<naolcm::world_truth_t> truth;
-  bus.subscribe<naolcm::world_truth_t>(
-      kWorldTruthChannel, Bus::Queue::kLatest,
-      [&truth](const naolcm::world_truth_t& message) { truth = message; });
+  bus.subscribe<naolcm::world_truth_t>(kWorldTruthChannel, Bus::Queue::kLatest,
+                                       [&truth](const auto& message) { truth = message; });
   const double start = monotonic_seconds();
   while (!truth && monotonic_seconds() - start < kListenTimeout) bus.handle_for(0.1);
   if (!truth) {
@@ -116,9 +114,7 @@ void add_show_command(CommandLine& world, Invocation& invocation) {
   auto as_json = std::make_shared<bool>(false);
   CommandLine* show = world.add_subcommand("show", "Show the true state of the simulated world");
   show->add_flag("--json", *as_json, "One line of JSON, fields as in world_truth_t");
-  show->on_parsed([&invocation, as_json] {
-    invocation.run = [&invocation, as_json] { return run_show(invocation.common, *as_json); };
-  });
+  invocation.on(*show, [as_json](const auto& common) { return run_show(common, *as_json); });
 }
 
 }  // namespace nao

@@ -130,7 +130,7 @@ int run_watchdog(const CommonOptions& common, const std::vector<std::string>& pr
   SharedBusWatch shared_bus(loop, common.lcm_url);
   bool is_ready = false;
   bus.subscribe<naolcm::daemon_status_t>(
-      kDaemonStatusChannel, Bus::Queue::kAll, [&](const naolcm::daemon_status_t& status) {
+      kDaemonStatusChannel, Bus::Queue::kAll, [&](const auto& status) {
         if (status.host != host.data()) return;
         if (status.process_id == getpid()) {
           detector.handle_own_heartbeat(monotonic_seconds());
@@ -188,9 +188,8 @@ void add_watchdog_command(CommandLine& app, Invocation& invocation) {
                    "The stack's programs, one name for each process: the watchdog is ready when "
                    "all have published their status")
       ->separated_by(',');
-  watchdog->on_parsed([&invocation, programs] {
-    invocation.run = [&invocation, programs] { return run_watchdog(invocation.common, *programs); };
-  });
+  invocation.on(*watchdog,
+                [programs](const auto& common) { return run_watchdog(common, *programs); });
 }
 
 }  // namespace nao

@@ -18,7 +18,7 @@ namespace {
 int run_world(const CommonOptions& common, const naolcm::world_command_t& command) {
   Conversation conversation(common, "world " + command.command, "nao-sim");
   conversation.bus().subscribe<naolcm::world_truth_t>(
-      kWorldTruthChannel, Bus::Queue::kLatest, [&conversation](const naolcm::world_truth_t& truth) {
+      kWorldTruthChannel, Bus::Queue::kLatest, [&conversation](const auto& truth) {
         if (truth.last_command_source != conversation.source() ||
             truth.last_command_id != conversation.command_id()) {
           return;
@@ -62,7 +62,7 @@ void add_world_commands(CommandLine& app, Invocation& invocation) {
   const auto [step, step_command] = add_world_command(
       *world, invocation, "step", "While paused: run some control ticks of 10 ms");
   step_command->num_ticks = 1;
-  step->add_option("ticks", step_command->num_ticks, "How many")->positive()->show_default();
+  step->add_option("ticks", step_command->num_ticks, "How many")->positive();
 
   const auto [pace, pace_command] =
       add_world_command(*world, invocation, "set-pace", "Set the rate of simulated time");
@@ -86,8 +86,7 @@ void add_world_commands(CommandLine& app, Invocation& invocation) {
   touch_command->num_ticks = 8;
   touch->add_option("name", touch_command->link, "Such as chest-button")->required();
   touch->add_option("--ticks", touch_command->num_ticks, "Control ticks, usually of 12 ms")
-      ->positive()
-      ->show_default();
+      ->positive();
 
   auto ball_velocity = std::make_shared<std::vector<double>>();
   const auto [ball, ball_command] =
@@ -123,10 +122,9 @@ void add_world_commands(CommandLine& app, Invocation& invocation) {
                         });
   place->add_option("x", place_command->position_in_world[0], "Along the field, m")->required();
   place->add_option("y", place_command->position_in_world[1], "To the left of it, m")->required();
-  place->add_option("--theta", *theta, "Heading, rad")->show_default();
+  place->add_option("--theta", *theta, "Heading, rad");
   place->add_option("--height", place_command->position_in_world[2], "Above the ground, m");
-  place->add_option("--posture", place_command->posture, "Posture of the placed robot")
-      ->show_default();
+  place->add_option("--posture", place_command->posture, "Posture of the placed robot");
 }
 
 }  // namespace nao

@@ -138,25 +138,19 @@ int main(int argc, char** argv) {
   app.add_option("--policy", manifest, "The policy's policy.yaml (docs/policies.md)")->required();
   app.add_option("--memory", memory, "File that is mapped for the arrays, such as /dev/shm/batch")
       ->required();
-  app.add_option("--size", size, "Number of robots")->range(1, 65536)->show_default();
-  app.add_option("--threads", num_threads, "Threads that step them")->range(1, 256)->show_default();
-  app.add_option("--seed", seed, "Seed of the first robot; the others have the following ones")
-      ->show_default();
+  app.add_option("--size", size, "Number of robots")->range(1, 65536);
+  app.add_option("--threads", num_threads, "Threads that step them")->range(1, 256);
+  app.add_option("--seed", seed, "Seed of the first robot; the others have the following ones");
   app.add_option("--engine", options.engine,
-                 "Physics engine: fast, simbody, or mujoco where it was built")
-      ->show_default();
+                 "Physics engine: fast, simbody, or mujoco where it was built");
   app.add_option(
-         "--disturbances", disturbances,
-         "Disturbances to draw for each robot: none, default, moderate, real, or entries of "
-         "real")
-      ->show_default();
+      "--disturbances", disturbances,
+      "Disturbances to draw for each robot: none, default, moderate, real, or entries of "
+      "real");
   app.add_option("--push", options.push,
                  "Greatest impulse of pushes about every four seconds, N s for each kg")
-      ->range(0.0, 10.0)
-      ->show_default();
-  app.add_option("--episode", options.episode_time, "Longest episode, s")
-      ->range(1.0, 1000.0)
-      ->show_default();
+      ->range(0.0, 10.0);
+  app.add_option("--episode", options.episode_time, "Longest episode, s")->range(1.0, 1000.0);
   app.add_option("--command", command,
                  "Velocity VX VY WZ of all episodes, m/s and rad/s, instead of drawn ones")
       ->count(3);

@@ -56,8 +56,6 @@ std::string to_json(const RobotCard& card) {
   json.add("no_images", card.no_images);
   json.begin_array("missing");
   for (const Finding& finding : card.missing) json.add("", to_line(finding));
-  json.end();
-  json.end();
   return json.take() + "\n";
 }
 

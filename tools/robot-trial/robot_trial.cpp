@@ -19,7 +19,6 @@
 #include "robot_import/robot_import.h"
 #include "robot_model/scene_file.h"
 #include "tools/nao-trial/scenarios.h"
-#include "tools/nao-trial/walk_scenarios.h"
 #include "tools/robot-trial/posture_images.h"
 #include "tools/walk-tuner/tune_gait.h"
 
@@ -135,7 +134,7 @@ class RobotTrial {
         stands_.try_emplace({settings.peak_error, settings.foot_distance}, result);
     if (is_new) {
       const std::vector<RunResult> stands =
-          run_rounds(trial::StandScenario(), kStandDuration, kNumStandRounds);
+          run_rounds(trial::stand_scenario(), kStandDuration, kNumStandRounds);
       count(stands, known->second.stands, known->second.failure);
     }
     result = known->second;
@@ -144,11 +143,12 @@ class RobotTrial {
       result.walks = has_gait_ ? 0 : 1;
       return result;
     }
-    std::vector<RunResult> walks = run_rounds(trial::WalkScenario(), kWalkDuration, kNumWalkRounds);
+    std::vector<RunResult> walks =
+        run_rounds(trial::walk_scenario(), kWalkDuration, kNumWalkRounds);
     count(walks, result.walks, result.failure);
     if (result.holds()) {
       // Some settings hold by luck: as many seeds again.
-      const auto more = run(trial::WalkScenario(), kWalkDuration, kSearchSeed + walks.size(),
+      const auto more = run(trial::walk_scenario(), kWalkDuration, kSearchSeed + walks.size(),
                             static_cast<int>(walks.size()));
       walks.insert(walks.end(), more.begin(), more.end());
       result.walks = 0;
@@ -163,9 +163,9 @@ class RobotTrial {
   /** Fills in what the robot does with the seeds of the card. */
   void measure(RobotCard& card) const {
     card.runs = kNumCardRuns;
-    const auto stands = run(trial::StandScenario(), kStandDuration, kCardSeed, kNumCardRuns);
+    const auto stands = run(trial::stand_scenario(), kStandDuration, kCardSeed, kNumCardRuns);
     const auto walks = has_gait_ && card.failure.empty()
-                           ? run(trial::WalkScenario(), kWalkDuration, kCardSeed, kNumCardRuns)
+                           ? run(trial::walk_scenario(), kWalkDuration, kCardSeed, kNumCardRuns)
                            : std::vector<RunResult>();
     for (const RunResult& stand : stands) {
       card.stands += stand.is_success ? 1 : 0;

@@ -9,7 +9,6 @@
 #include <system_error>
 
 #include "common/command_line.h"
-#include "common/data_path.h"
 #include "common/error.h"
 #include "common/program.h"
 #include "phone-gateway/protocol/framing.h"
@@ -67,21 +66,17 @@ int main(int argc, char** argv) {
   std::string disturbances = "default";
   nao::ClosedLoopOptions options;
   nao::add_model_option(app, model);
-  app.add_option("--scene", scene, "Name of a file in scenes/")->show_default();
+  app.add_option("--scene", scene, "Name of a file in scenes/");
   app.add_option("--engine", options.engine,
-                 "Physics engine: fast, simbody, or mujoco where it was built")
-      ->show_default();
+                 "Physics engine: fast, simbody, or mujoco where it was built");
   app.add_option(
-         "--disturbances", disturbances,
-         "Disturbances to draw for each seed: none, default, moderate, real, or entries of real "
-         "such as backlash,floor_slope")
-      ->show_default();
+      "--disturbances", disturbances,
+      "Disturbances to draw for each seed: none, default, moderate, real, or entries of real "
+      "such as backlash,floor_slope");
   app.add_option("--tick-ms", options.tick_ms,
-                 "Control period, ms: a multiple of 2 (0: as the disturbances say, or 10)")
-      ->show_default();
+                 "Control period, ms: a multiple of 2 (0: as the disturbances say, or 10)");
   return nao::run_program(app, common, argc, argv, [&] {
-    options.model = std::make_shared<nao::RobotModel>(
-        nao::RobotModel::load(nao::data_path() / "robots" / model));
+    options.model = std::make_shared<nao::RobotModel>(nao::RobotModel::find(model));
     options.scene = nao::SceneFile::find(scene);
     options.disturbances =
         std::make_shared<nao::sim::DisturbanceSet>(nao::sim::DisturbanceSet::find(disturbances));

@@ -66,15 +66,12 @@ int main(int argc, char** argv) {
   app.add_option("--sequence", options.sequences, "Transitions to tune, by name");
   app.add_option("--keyframes", options.keyframes, "First and last keyframe to tune, from 0")
       ->count(2);
-  app.add_option("--fixed", options.fixed, "Joints, without side, whose angles stay")
-      ->show_default();
+  app.add_option("--fixed", options.fixed, "Joints, without side, whose angles stay");
   app.add_option("--start", options.start,
-                 "Lying pose at the start: any, belly, back, left or right")
-      ->show_default();
+                 "Lying pose at the start: any, belly, back, left or right");
   app.add_option("--trials", options.trials,
                  "Trials of each candidate with each engine and set of disturbances")
-      ->positive()
-      ->show_default();
+      ->positive();
   app.add_flag("--check", options.is_check, "Only evaluate the file with --trials trials");
   return nao::run_program(app, common, argc, argv, [&] { nao::tune(options); });
 }

@@ -23,8 +23,7 @@ std::string Checkpoint::to_text() const {
   for (const std::vector<double>& generation : costs) add(json, "", generation);
   json.end();
   add(json, "mean", mean);
-  json.end();
-  return json.text() + "\n";
+  return json.take() + "\n";
 }
 
 Checkpoint Checkpoint::parse(const std::string& text, const std::string& name) {

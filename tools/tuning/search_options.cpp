@@ -26,39 +26,28 @@ std::map<std::string, std::string> SearchOptions::settings() const {
 void add_search_options(CommandLine& app, SearchOptions& options, const std::string& result,
                         const std::string& sigma_unit) {
   add_model_option(app, options.model);
-  app.add_option("--output", options.output, "File for the tuned " + result)->show_default();
-  app.add_option("--generations", options.generations, "Generations of the search")
-      ->not_negative()
-      ->show_default();
+  app.add_option("--output", options.output, "File for the tuned " + result);
+  app.add_option("--generations", options.generations, "Generations of the search")->not_negative();
   app.add_option("--minutes", options.minutes,
                  "Time after which no further generation begins (0: no limit)")
-      ->not_negative()
-      ->show_default();
-  app.add_option("--population", options.population, "Candidates in a generation")
-      ->range(4, 1000)
-      ->show_default();
+      ->not_negative();
+  app.add_option("--population", options.population, "Candidates in a generation")->range(4, 1000);
   app.add_option("--jobs", options.jobs,
                  "Threads (0: one for each core; in a process of mpirun one)")
-      ->range(0, 1024)
-      ->show_default();
-  app.add_option("--sigma", options.sigma, "Initial standard deviation, " + sigma_unit)
-      ->positive()
-      ->show_default();
-  app.add_option("--seed", options.seed, "Seed of the search and of all trials")->show_default();
+      ->range(0, 1024);
+  app.add_option("--sigma", options.sigma, "Initial standard deviation, " + sigma_unit)->positive();
+  app.add_option("--seed", options.seed, "Seed of the search and of all trials");
   app.add_option("--engine", options.engines,
                  "Physics engines, NAME[,NAME...]: each candidate is evaluated with each of them")
-      ->separated_by(',')
-      ->show_default();
+      ->separated_by(',');
   app.add_option(
          "--disturbances", options.disturbances,
          "Disturbances, NAME[,NAME...]: each candidate is evaluated with each of them. NAME "
          "is a file of disturbances/, or entries of real such as backlash+floor_slope")
-      ->separated_by(',')
-      ->show_default();
+      ->separated_by(',');
   app.add_option("--screen", options.screen,
                  "Trials after which the worst third of the candidates is given up (0: never)")
-      ->not_negative()
-      ->show_default();
+      ->not_negative();
   app.add_option("--checkpoint", options.checkpoint,
                  "File for the state after each generation (default: OUTPUT.checkpoint)");
   app.add_option("--resume", options.resume,

@@ -1,30 +1,24 @@
 #include "tools/tuning/worker_threads.h"
 
-#include <ctime>
 #include <exception>
 #include <utility>
+
+#include "common/processor_time.h"
 
 namespace nao {
 namespace {
 
-/** Processor time of this thread, s. Unlike wall time it does not grow on a busy machine. */
-double thread_time() {
-  timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
-
 Outcome run_one(const RunTask& run, const IndexedTask& task) {
   Outcome outcome;
   outcome.index = task.index;
-  const double start = thread_time();
+  const double start = thread_seconds();
   try {
     outcome.figures = run(task.task);
   } catch (const std::exception& exception) {
     outcome.error = exception.what();
     if (outcome.error.empty()) outcome.error = "a trial has failed";
   }
-  outcome.duration = thread_time() - start;
+  outcome.duration = thread_seconds() - start;
   return outcome;
 }
 

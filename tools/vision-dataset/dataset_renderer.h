@@ -3,7 +3,6 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <opencv2/core.hpp>
-#include <vector>
 
 #include "daemons/head-camera/lens.h"
 #include "rendering/egl_context.h"

@@ -8,7 +8,6 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "common/command_line.h"
-#include "common/data_path.h"
 #include "common/error.h"
 #include "common/output_file.h"
 #include "common/program.h"
@@ -44,7 +43,7 @@ std::vector<nao::vision::SceneKind> read_kinds(const std::vector<std::string>& n
 }
 
 void write_dataset(const DatasetOptions& options) {
-  const auto model = nao::RobotModel::load(nao::data_path() / "robots" / options.model);
+  const auto model = nao::RobotModel::find(options.model);
   const nao::SceneFile field = nao::SceneFile::find("soccer");
   std::filesystem::create_directories(options.folder);
   nao::vision::DatasetRenderer renderer(model, field);
@@ -80,28 +79,21 @@ int main(int argc, char** argv) {
   app.add_version_flag("--version", nao::version());
   app.add_option("folder", options.folder, "Where to write the images and labels.json (COCO)")
       ->required();
-  app.add_option("--images", options.num_images, "Number of images")
-      ->show_default()
-      ->range(1, 1000000);
-  app.add_option("--seed", options.seed, "Equal seeds give equal images")->show_default();
+  app.add_option("--images", options.num_images, "Number of images")->range(1, 1000000);
+  app.add_option("--seed", options.seed, "Equal seeds give equal images");
   app.add_option("--places", options.num_places,
                  "Number of places: light, carpet, surroundings and camera differ between them")
-      ->show_default()
       ->range(1, 100000);
-  app.add_option("--first-place", options.first_place, "Number of the first place")->show_default();
+  app.add_option("--first-place", options.first_place, "Number of the first place");
   app.add_option("--balls", options.scene.ball_fraction, "Fraction of images with a ball")
-      ->show_default()
       ->range(0.0, 1.0);
   app.add_option("--robots", options.scene.most_robots,
                  "Greatest number of other robots in an image")
-      ->show_default()
       ->range(0, 3);
   app.add_option("--kinds", options.kinds,
                  "Kinds of scenes, which alternate: " +
                      fmt::format("{}", fmt::join(nao::vision::scene_kind_names(), ", ")))
-      ->separated_by(',')
-      ->show_default();
-  app.add_option("--model", options.model, "Folder of robots/ that describes the robots")
-      ->show_default();
+      ->separated_by(',');
+  app.add_option("--model", options.model, "Folder of robots/ that describes the robots");
   return nao::run_program(app, common, argc, argv, [&] { write_dataset(options); });
 }

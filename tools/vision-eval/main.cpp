@@ -4,7 +4,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <ctime>
 #include <filesystem>
 #include <map>
 #include <opencv2/imgcodecs.hpp>
@@ -13,6 +12,7 @@
 #include "common/error.h"
 #include "common/json_writer.h"
 #include "common/output_file.h"
+#include "common/processor_time.h"
 #include "common/program.h"
 #include "daemons/vision/drawing.h"
 #include "daemons/vision/vision_core.h"
@@ -34,19 +34,12 @@ struct EvalOptions {
   bool ignores_pose = false;
 };
 
-/** Processor time of this thread, ms. */
-double processor_ms() {
-  timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
-}
-
 /** Processor time of each stage. */
 class StageTimes {
  public:
-  void start() { last_ = begin_ = processor_ms(); }
+  void start() { last_ = begin_ = 1e3 * nao::thread_seconds(); }
   void finish(const std::string& stage) {
-    const double now = processor_ms();
+    const double now = 1e3 * nao::thread_seconds();
     if (times_.count(stage) == 0) order_.push_back(stage);
     times_[stage].push_back(now - last_);
     last_ = now;
@@ -136,8 +129,7 @@ int evaluate(const EvalOptions& options) {
       nao::replace_file(file.string() + ".png", {png.begin(), png.end()});
     }
   }
-  json.end();
-  if (!options.json_file.empty()) nao::replace_file(options.json_file, json.text() + "\n");
+  if (!options.json_file.empty()) nao::replace_file(options.json_file, json.take() + "\n");
   fmt::print("{} images of {}\n\n", images.size() - num_unreadable, options.folder);
   if (has_labels) fmt::print("{}\n", scores.table());
   times.print();

@@ -22,15 +22,12 @@ int main(int argc, char** argv) {
                  "kick and standing)");
   app.add_option("--courses", options.courses,
                  "Courses of ten walks for each candidate, engine and set of disturbances")
-      ->positive()
-      ->show_default();
+      ->positive();
   app.add_option("--speed", options.speed, "Commanded fraction of the robot's walk limits")
-      ->positive()
-      ->show_default();
+      ->positive();
   app.add_option("--late", options.late_probability,
                  "Probability that the motion core misses a tick and up to three more")
-      ->range(0.0, 1.0)
-      ->show_default();
+      ->range(0.0, 1.0);
   app.add_flag("--check", options.is_check, "Only evaluate the gait, on --courses courses");
   return nao::run_program(app, common, argc, argv, [&] {
     options.folder = nao::data_path() / "robots" / options.search.model;

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "common/joined.h"
 #include "daemons/motion/transitions/body_state.h"
 #include "daemons/motion/transitions/transition_graph.h"
 #include "messages/named_joints.h"
@@ -99,11 +100,8 @@ std::variant<ActionScript, MotionFault> to_script(const RobotModel& model,
   script.start =
       motion.start.empty() ? find_start_posture(model, script.sequence.keyframes) : motion.start;
   if (model.find_posture(script.start) == nullptr) {
-    std::string known;
-    for (const Posture& posture : model.postures()) {
-      known += (known.empty() ? "" : ", ") + posture.name;
-    }
-    return MotionFault{-1, Reason("posture-unknown", {script.start.substr(0, 40), known})};
+    return MotionFault{-1, Reason("posture-unknown", {script.start.substr(0, 40),
+                                                      joined(model.postures(), &Posture::name)})};
   }
   return script;
 }

@@ -2,20 +2,13 @@
 
 #include <cmath>
 
+#include "common/joined.h"
 #include "messages/named_joints.h"
 
 namespace nao::motion {
 namespace {
 
 using Fault = std::optional<Reason>;
-
-/** Names joined by commas. */
-template <class Items, class NameOf>
-std::string list_names(const Items& items, NameOf name_of) {
-  std::string list;
-  for (const auto& item : items) list += (list.empty() ? "" : ", ") + name_of(item);
-  return list;
-}
 
 Fault find_speed_fault(double speed) {
   if (speed > 0 && speed <= 1) return std::nullopt;
@@ -41,8 +34,7 @@ Fault find_fault_in(const RobotModel& /*model*/, const MoveToCommand& move_to) {
 Fault find_fault_in(const RobotModel& model, const PostureCommand& posture) {
   if (model.find_posture(posture.posture) == nullptr) {
     return Reason("posture-unknown",
-                  {quoted(posture.posture),
-                   list_names(model.postures(), [](const Posture& known) { return known.name; })});
+                  {quoted(posture.posture), joined(model.postures(), &Posture::name)});
   }
   return find_speed_fault(posture.speed);
 }
@@ -80,8 +72,7 @@ Fault find_fault_in(const RobotModel& model, const JointChangeCommand& change) {
 Fault find_fault_in(const RobotModel& model, const ActionCommand& action) {
   if (model.find_action(action.action) == nullptr) {
     return Reason("action-unknown",
-                  {quoted(action.action),
-                   list_names(model.actions(), [](const Action& known) { return known.name; })});
+                  {quoted(action.action), joined(model.actions(), &Action::name)});
   }
   if (std::isinf(action.ball_x) || std::isinf(action.ball_y)) return Reason("ball-not-finite");
   // NaN leaves the strength to the robot's kick file.

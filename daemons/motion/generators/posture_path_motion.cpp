@@ -1,7 +1,6 @@
 #include "daemons/motion/generators/posture_path_motion.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "common/constants.h"
 #include "daemons/motion/transitions/body_state.h"

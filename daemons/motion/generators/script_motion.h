@@ -1,7 +1,6 @@
 #pragma once
 
 #include <memory>
-#include <string>
 
 #include "daemons/motion/actions/action_script.h"
 #include "daemons/motion/estimator/gyroscope_filter.h"

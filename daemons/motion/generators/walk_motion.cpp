@@ -6,7 +6,6 @@
 #include <cstdio>
 #include <utility>
 
-#include "common/error.h"
 #include "kinematics/pose2.h"
 
 namespace nao::motion {

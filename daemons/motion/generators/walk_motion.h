@@ -2,7 +2,6 @@
 
 #include <memory>
 #include <optional>
-#include <string>
 
 #include "daemons/motion/generators/motion_generator.h"
 #include "daemons/motion/walk/gait.h"

@@ -1,7 +1,6 @@
 #include "daemons/motion/guards/self_collision_guard.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "robot_model/collision_shape.h"

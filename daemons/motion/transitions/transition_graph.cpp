@@ -1,11 +1,9 @@
 #include "daemons/motion/transitions/transition_graph.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <set>
 
-#include "common/error.h"
 #include "daemons/motion/transitions/body_state.h"
 
 namespace nao::motion {

@@ -1,9 +1,12 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "common/parameter_group.h"
 
 namespace nao::motion {
 
@@ -13,135 +16,48 @@ namespace nao::motion {
  * the range in which nao-walk-tuner may choose it, and how it was found. */
 struct Gait {
   /** Durations, s. */
-  struct Timing {
-    double step_duration = 0;
-    double min_step_duration = 0;
-    double max_step_duration = 0;
-    double double_support_duration = 0;
-    double start_duration = 0;
-    double stop_duration = 0;
-    double raise_duration = 0;
-    double late_duration = 0;
-    double stop_horizon = 0;
-  };
+  NAO_PARAMETER_GROUP(Timing, timing, step_duration, min_step_duration, max_step_duration,
+                      double_support_duration, start_duration, stop_duration, raise_duration,
+                      late_duration, stop_horizon);
   /** Nominal pose of torso and feet: m, rad; time constant, s. */
-  struct Stance {
-    double hip_height = 0;
-    double torso_pitch = 0;
-    double foot_separation = 0;
-    double turn_center = 0;
-    double zmp_forward = 0;
-    double zmp_inward = 0;
-    double com_time_constant = 0;
-  };
+  NAO_PARAMETER_GROUP(Stance, stance, hip_height, torso_pitch, foot_separation, turn_center,
+                      zmp_forward, zmp_inward, com_time_constant);
   /** Trajectory of the swing foot: m, fractions, rad s/m, m/s. */
-  struct Swing {
-    double height = 0;
-    double arrival_fraction = 0;
-    double toe_pitch_gain = 0;
-    double touchdown_load_ratio = 0;
-    double late_speed = 0;
-    double late_depth = 0;
-  };
+  NAO_PARAMETER_GROUP(Swing, swing, height, arrival_fraction, toe_pitch_gain, touchdown_load_ratio,
+                      late_speed, late_depth);
   /** Bounds of one footstep, measured from the support foot: m, rad. */
-  struct StepLimits {
-    double max_forward = 0;
-    double max_backward = 0;
-    double max_outward = 0;
-    double min_foot_separation = 0;
-    double max_turn_outward = 0;
-    double max_turn_inward = 0;
-    double turn_inward_without_spread = 0;
-    double square_distance = 0;
-  };
+  NAO_PARAMETER_GROUP(StepLimits, step_limits, max_forward, max_backward, max_outward,
+                      min_foot_separation, max_turn_outward, max_turn_inward,
+                      turn_inward_without_spread, square_distance);
   /** Velocity of the steps: change per step, m/s and rad/s; exponent; 1/s; m; lags in s and the
    * fractions of the greatest velocity, and of the greatest turn, at the longer one; fraction of
    * both with a dead foot sensor. */
-  struct Velocity {
-    double max_change_vx = 0;
-    double max_change_vy = 0;
-    double max_change_wz = 0;
-    double envelope_exponent = 0;
-    double path_gain = 0;
-    double max_path_offset = 0;
-    double full_speed_lag = 0;
-    double slow_speed_lag = 0;
-    double slow_speed = 0;
-    double slow_turning = 0;
-    double slow_envelope_exponent = 0;
-    double dead_sensor_speed = 0;
-  };
+  NAO_PARAMETER_GROUP(Velocity, velocity, max_change_vx, max_change_vy, max_change_wz,
+                      envelope_exponent, path_gain, max_path_offset, full_speed_lag, slow_speed_lag,
+                      slow_speed, slow_turning, slow_envelope_exponent, dead_sensor_speed);
   /** Control law of the zero moment point: gain and range on the sole, m. */
-  struct Zmp {
-    double gain = 0;
-    double reach_forward = 0;
-    double reach_backward = 0;
-    double reach_sideways = 0;
-  };
+  NAO_PARAMETER_GROUP(Zmp, zmp, gain, reach_forward, reach_backward, reach_sideways);
   /** Feedback of the measured center of mass: s, 1/s, dimensionless gains, bounds in m. */
-  struct Feedback {
-    double initial_lag = 0;
-    double com_position_gain = 0;
-    double com_velocity_gain = 0;
-    double footstep_gain = 0;
-    double timing_gain = 0;
-    double ankle_dcm_gain = 0;
-    double bias_gain = 0;
-    double max_bias = 0;
-    double max_com_offset = 0;
-    double com_offset_gain = 0;
-  };
+  NAO_PARAMETER_GROUP(Feedback, feedback, initial_lag, com_position_gain, com_velocity_gain,
+                      footstep_gain, timing_gain, ankle_dcm_gain, bias_gain, max_bias,
+                      max_com_offset, com_offset_gain);
   /** Feedback of the torso's angular velocity, s, and tilt, dimensionless, to joint angles. */
-  struct Orientation {
-    double gyro_ankle_pitch = 0;
-    double gyro_ankle_roll = 0;
-    double gyro_hip_pitch = 0;
-    double gyro_hip_roll = 0;
-    double tilt_ankle_pitch = 0;
-    double tilt_ankle_roll = 0;
-  };
+  NAO_PARAMETER_GROUP(Orientation, orientation, gyro_ankle_pitch, gyro_ankle_roll, gyro_hip_pitch,
+                      gyro_hip_roll, tilt_ankle_pitch, tilt_ankle_roll);
   /** Feedback of the torso's angular velocity while the robot stands: s, s, rad/s. */
-  struct Standing {
-    double ankle_pitch = 0;
-    double hip_pitch = 0;
-    double least_rate = 0;
-  };
+  NAO_PARAMETER_GROUP(Standing, standing, ankle_pitch, hip_pitch, least_rate);
   /** Feedforward to the position servos: s, dimensionless scales. */
-  struct Servo {
-    double lead_time = 0;
-    double torque_scale = 0;
-    double velocity_scale = 0;
-    double inertia_scale = 0;
-  };
+  NAO_PARAMETER_GROUP(Servo, servo, lead_time, torque_scale, velocity_scale, inertia_scale);
   /** Kick during the walk, m. */
-  struct Kick {
-    double ball_distance = 0;
-    double swing_reach = 0;
-    double swing_lift = 0;
-  };
+  NAO_PARAMETER_GROUP(Kick, kick, ball_distance, swing_reach, swing_lift);
   /** Arms: swing in rad per m of stride. */
-  struct Arms {
-    double swing_gain = 0;
-  };
-
-  Timing timing;
-  Stance stance;
-  Swing swing;
-  StepLimits step_limits;
-  Velocity velocity;
-  Zmp zmp;
-  Feedback feedback;
-  Orientation orientation;
-  Standing standing;
-  Servo servo;
-  Kick kick;
-  Arms arms;
+  NAO_PARAMETER_GROUP(Arms, arms, swing_gain);
 
   /** One entry of the file: where its value is stored, and the range of the tuner. */
   struct Parameter {
     /** "GROUP.KEY". */
     std::string name;
-    double& (*in)(Gait&);
+    std::function<double&(Gait&)> in;
     double lower = 0;
     double upper = 0;
 

@@ -1,7 +1,6 @@
 #include "daemons/motion/walk/lag_estimator.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace nao::motion {
 namespace {

@@ -287,7 +287,7 @@ void add_subcommands(CommandLine& app, PhoneOptions& o, std::function<int()>& ch
   app.require_subcommand();
   CommandLine* gateways = app.add_subcommand(
       "gateways", "List the gateways in the local network; needs avahi-daemon on this host");
-  gateways->add_option("--timeout", o.timeout, "How long to look for them, s")->show_default();
+  gateways->add_option("--timeout", o.timeout, "How long to look for them, s");
   gateways->on_parsed([&o, &chosen] { chosen = [&o] { return list_gateways(o.timeout); }; });
   add_action(app, o, chosen, "robots", "List the robots of the gateway and who drives them",
              list_robots);
@@ -346,7 +346,7 @@ void add_subcommands(CommandLine& app, PhoneOptions& o, std::function<int()>& ch
   walking->add_option("vx", o.vx, "Velocity forward, m/s; negative: backward")->required();
   walking->add_option("vy", o.vy, "Velocity to the left, m/s");
   walking->add_option("wz", o.wz, "Turning rate to the left, rad/s");
-  walking->add_option("--duration", o.duration, "How long, s")->show_default();
+  walking->add_option("--duration", o.duration, "How long, s");
   move->add_option("x", o.x, "Forward, m")->required();
   move->add_option("y", o.y, "To the left, m");
   move->add_option("theta", o.theta, "Heading at the goal relative to the present one, rad");
@@ -356,9 +356,9 @@ void add_subcommands(CommandLine& app, PhoneOptions& o, std::function<int()>& ch
 
   CommandLine* watching =
       app.add_subcommand("watch", "Print states, images and notices as they are received");
-  watching->add_option("--duration", o.duration, "How long, s")->show_default();
-  watching->add_option("--rate", o.rate, "States a second, up to 60")->show_default();
-  watching->add_option("--images", o.image_rate, "Images a second, up to 30")->show_default();
+  watching->add_option("--duration", o.duration, "How long, s");
+  watching->add_option("--rate", o.rate, "States a second, up to 60");
+  watching->add_option("--images", o.image_rate, "Images a second, up to 30");
   watching->on_parsed([&] { chosen = [&o] { return watch(o); }; });
   app.add_subcommand("list", "List the connected clients (on the gateway's host only)")
       ->on_parsed([&] { chosen = [&o] { return list_clients(o); }; });
@@ -375,11 +375,11 @@ int main(int argc, char** argv) {
   options.client.name = "nao-phone";
   options.client.software = std::string("nao-phone ") + nao::version();
   app.add_version_flag("--version", app.name() + " " + nao::version());
-  app.add_option("--host", options.client.host, "The gateway's host")->show_default();
-  app.add_option("--port", options.client.port, "Its TCP port")->show_default();
+  app.add_option("--host", options.client.host, "The gateway's host");
+  app.add_option("--port", options.client.port, "Its TCP port");
   app.add_option("--token", options.client.token,
                  "Pairing token; not needed on the gateway's own host");
-  app.add_option("--name", options.client.name, "Name that other clients see")->show_default();
+  app.add_option("--name", options.client.name, "Name that other clients see");
   app.add_option("--robot", options.client.robot,
                  "Robot of a gateway of several (default: the first one that nobody drives)");
   std::function<int()> chosen;

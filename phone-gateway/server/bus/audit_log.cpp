@@ -26,7 +26,6 @@ std::string to_json(const AuditEvent& event, int64_t wall_utime, int64_t num_kep
   json.add("address", event.address);
   json.add("detail", event.detail);
   if (num_kept_back > 0) json.add("num_kept_back", num_kept_back);
-  json.end();
   return json.take();
 }
 

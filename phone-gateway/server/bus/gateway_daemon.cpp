@@ -83,7 +83,7 @@ std::vector<RobotSetup> GatewayDaemon::make_setups() {
 
 void GatewayDaemon::subscribe() {
   bus_.subscribe<naolcm::daemon_status_t>(
-      kDaemonStatusChannel, Bus::Queue::kAll, [this](const naolcm::daemon_status_t& message) {
+      kDaemonStatusChannel, Bus::Queue::kAll, [this](const auto& message) {
         const double now = monotonic_seconds();
         for (size_t i = 0; i < core_.num_robots(); ++i) {
           ComponentMonitor& components = core_.robot(i).components();
@@ -94,7 +94,7 @@ void GatewayDaemon::subscribe() {
         }
       });
   bus_.subscribe<naolcm::match_state_t>(kMatchStateChannel, Bus::Queue::kLatest,
-                                        [this](const naolcm::match_state_t& message) {
+                                        [this](const auto& message) {
                                           const MatchState state = to_match_state(message);
                                           core_.set_players(read_players(state));
                                           core_.set_match(read_match(state), monotonic_seconds());

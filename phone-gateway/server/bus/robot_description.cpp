@@ -2,6 +2,7 @@
 
 #include "messages/speech_command.h"
 #include "phone-gateway/server/core/streams.h"
+#include "robot_model/action_kinds.h"
 #include "robot_model/camera_group.h"
 #include "robot_model/robot_lights.h"
 
@@ -11,28 +12,6 @@ namespace {
 /** Empty for an axis that the group does not have. */
 std::string motor_name(const RobotModel& model, int motor) {
   return motor < 0 ? "" : model.motor_joint(motor).name;
-}
-
-const char* name_of(Action::Kind kind) {
-  switch (kind) {
-    case Action::Kind::kStandUp:
-      return "stand-up";
-    case Action::Kind::kRest:
-      return "rest";
-    case Action::Kind::kKick:
-      return "kick";
-    case Action::Kind::kBlock:
-      return "block";
-    case Action::Kind::kDive:
-      return "dive";
-    case Action::Kind::kGesture:
-      return "gesture";
-    case Action::Kind::kPolicy:
-      return "policy";
-    case Action::Kind::kOwnGait:
-      return "own-gait";
-  }
-  return "";
 }
 
 const char* name_of(Side side) {
@@ -75,7 +54,7 @@ void describe_words(const RobotModel& model, naoremote::RobotDescription& robot)
   for (const Action& action : model.actions()) {
     naoremote::ActionRole& role = *robot.add_action_roles();
     role.set_name(action.name);
-    role.set_kind(name_of(action.kind));
+    role.set_kind(std::string(kActionKinds[static_cast<size_t>(action.kind)]));
     role.set_side(name_of(action.side));
   }
   for (const Label& label : model.labels()) {

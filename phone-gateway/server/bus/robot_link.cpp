@@ -33,32 +33,28 @@ RobotSetup RobotLink::setup() {
 
 void RobotLink::subscribe(GatewayRobot& robot,
                           const std::function<void(const CachedImage&)>& add_image) {
-  bus_.subscribe<naolcm::robot_state_t>(channels_.robot_state, Bus::Queue::kLatest,
-                                        [this, &robot](const naolcm::robot_state_t& message) {
-                                          robot.set_state(robot_state_reader_.read(message),
-                                                          monotonic_seconds());
-                                        });
+  bus_.subscribe<naolcm::robot_state_t>(
+      channels_.robot_state, Bus::Queue::kLatest, [this, &robot](const auto& message) {
+        robot.set_state(robot_state_reader_.read(message), monotonic_seconds());
+      });
   bus_.subscribe<naolcm::motion_state_t>(
-      channels_.motion_state, Bus::Queue::kLatest, [&robot](const naolcm::motion_state_t& message) {
+      channels_.motion_state, Bus::Queue::kLatest, [&robot](const auto& message) {
         robot.set_motion(read_motion_state(message), monotonic_seconds());
       });
-  bus_.subscribe<naolcm::command_result_t>(channels_.command_result, Bus::Queue::kAll,
-                                           [this, &robot](const naolcm::command_result_t& message) {
-                                             // Other programs send commands, too.
-                                             if (message.source.starts_with(source_)) {
-                                               robot.handle_result(read_result(message),
-                                                                   monotonic_seconds());
-                                             }
-                                           });
+  bus_.subscribe<naolcm::command_result_t>(
+      channels_.command_result, Bus::Queue::kAll, [this, &robot](const auto& message) {
+        // Other programs send commands, too.
+        if (message.source.starts_with(source_)) {
+          robot.handle_result(read_result(message), monotonic_seconds());
+        }
+      });
   bus_.subscribe<naolcm::body_state_t>(
-      channels_.body_state, Bus::Queue::kLatest,
-      [this, &robot](const naolcm::body_state_t& message) {
+      channels_.body_state, Bus::Queue::kLatest, [this, &robot](const auto& message) {
         robot.streams().set_lights(read_lights(message, description_));
         robot.streams().set_body(read_body(message, description_));
       });
   bus_.subscribe<naolcm::motion_file_result_t>(
-      channels_.motion_file_result, Bus::Queue::kAll,
-      [&robot](const naolcm::motion_file_result_t& message) {
+      channels_.motion_file_result, Bus::Queue::kAll, [&robot](const auto& message) {
         const auto result = from_message(message);
         if (!result) throw MessageError("the lists of its motion have unequal lengths");
         robot.motions().handle_result(*result, monotonic_seconds());
@@ -68,25 +64,22 @@ void RobotLink::subscribe(GatewayRobot& robot,
 
 void RobotLink::subscribe_perception(GatewayRobot& robot,
                                      const std::function<void(const CachedImage&)>& add_image) {
-  bus_.subscribe<naolcm::speech_audio_t>(channels_.speech_audio, Bus::Queue::kAll,
-                                         [&robot](const naolcm::speech_audio_t& message) {
-                                           robot.streams().add_audio(read_audio(message));
-                                         });
+  bus_.subscribe<naolcm::speech_audio_t>(
+      channels_.speech_audio, Bus::Queue::kAll,
+      [&robot](const auto& message) { robot.streams().add_audio(read_audio(message)); });
   // The channel carries several sizes: with kLatest one would replace another.
   bus_.subscribe<naolcm::image_t>(channels_.head_camera_image, Bus::Queue::kAll,
-                                  [this, add_image](const naolcm::image_t& message) {
+                                  [this, add_image](const auto& message) {
                                     image_sizes_.add(message);
                                     add_image(read_image(message));
                                   });
   bus_.subscribe<naolcm::vision_state_t>(
-      channels_.vision_state, Bus::Queue::kLatest,
-      [this, &robot](const naolcm::vision_state_t& message) {
+      channels_.vision_state, Bus::Queue::kLatest, [this, &robot](const auto& message) {
         robot.perception().set(read_vision(message, image_sizes_));
       });
-  bus_.subscribe<naolcm::play_state_t>(channels_.play_state, Bus::Queue::kLatest,
-                                       [&robot](const naolcm::play_state_t& message) {
-                                         robot.set_play_state(read_play_state(message));
-                                       });
+  bus_.subscribe<naolcm::play_state_t>(
+      channels_.play_state, Bus::Queue::kLatest,
+      [&robot](const auto& message) { robot.set_play_state(read_play_state(message)); });
 }
 
 void RobotLink::send_service(const ServiceCommand& command) {

@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <functional>
 #include <string>
-#include <vector>
 
 #include "messages/command_sender.h"
 #include "phone-gateway/server/core/gateway_reasons.h"

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "messages/enum_names.h"
 #include "phone-gateway/server/core/gateway_reasons.h"
 
 namespace nao::gateway {
@@ -11,15 +12,8 @@ static_assert(static_cast<int>(Component::kRobot) == naoremote::Notice::ROBOT);
 static_assert(static_cast<int>(Component::kCamera) == naoremote::Notice::CAMERA);
 
 const char* to_string(Component component) {
-  switch (component) {
-    case Component::kMotion:
-      return "motion";
-    case Component::kRobot:
-      return "robot";
-    case Component::kCamera:
-      return "camera";
-  }
-  return "unknown";
+  static constexpr auto kNames = std::to_array<const char*>({"motion", "robot", "camera"});
+  return name_in(kNames, component);
 }
 
 Reason availability_reason(Component component, bool is_available) {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include "phone-gateway/server/core/driving_lease.h"
 #include "phone-gateway/server/core/secret.h"

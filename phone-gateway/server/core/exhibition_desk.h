@@ -3,7 +3,6 @@
 #include <map>
 #include <optional>
 #include <string>
-#include <utility>
 
 #include "phone-gateway/server/core/attraction.h"
 #include "phone-gateway/server/core/gateway_reasons.h"

@@ -2,7 +2,6 @@
 
 #include <functional>
 #include <string>
-#include <utility>
 
 #include "messages/command.h"
 #include "phone-gateway/server/core/client_commands.h"

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "common/joined.h"
 #include "messages/command.h"
 
 namespace nao::gateway {
@@ -97,9 +98,8 @@ std::variant<MotionFileCommand, Refusal> check(const naoremote::MotionFile& file
       motion.start().empty() || std::find(robot.postures().begin(), robot.postures().end(),
                                           motion.start()) != robot.postures().end();
   if (!is_posture) {
-    std::string known;
-    for (const std::string& name : robot.postures()) known += (known.empty() ? "" : ", ") + name;
-    return refuse_motion(Reason("posture-unknown", {quoted(motion.start()), known}));
+    return refuse_motion(
+        Reason("posture-unknown", {quoted(motion.start()), joined(robot.postures())}));
   }
   command.motion.name = motion.name();
   command.motion.start = motion.start();

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <optional>
-
 #include "phone-gateway/server/core/message_bytes.h"
 #include "phone-gateway/server/core/robot_sessions.h"
 #include "remote.pb.h"

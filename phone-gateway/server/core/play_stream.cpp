@@ -1,7 +1,5 @@
 #include "phone-gateway/server/core/play_stream.h"
 
-#include <utility>
-
 namespace nao::gateway {
 namespace {
 

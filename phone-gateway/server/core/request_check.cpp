@@ -7,6 +7,8 @@
 #include <optional>
 #include <utility>
 
+#include "common/joined.h"
+
 namespace nao::gateway {
 namespace {
 
@@ -35,14 +37,6 @@ bool is_within(double value, double limit) {
 template <class Values, class Value>
 bool contains(const Values& values, const Value& value) {
   return std::find(values.begin(), values.end(), value) != values.end();
-}
-
-/** "Stand, Crouch". */
-template <class Names>
-std::string join(const Names& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
 }
 
 Refusal refuse_argument(GatewayReasonCode code, std::vector<std::string> arguments = {}) {
@@ -135,7 +129,7 @@ std::variant<PostureCommand, Refusal> check(const naoremote::GoToPosture& reques
                                             const naoremote::RobotDescription& robot) {
   if (!contains(robot.postures(), request.posture())) {
     return refuse_argument(
-        Reason("posture-unknown", {quoted(request.posture()), join(robot.postures())}));
+        Reason("posture-unknown", {quoted(request.posture()), joined(robot.postures())}));
   }
   auto speed = check_speed(request.speed(), kDefaultPostureSpeed);
   if (auto* refusal = std::get_if<Refusal>(&speed)) return std::move(*refusal);
@@ -146,9 +140,9 @@ std::variant<JointChangeCommand, Refusal> check(const naoremote::ChangeJoints& r
                                                 const naoremote::RobotDescription& robot) {
   const naoremote::JointGroup* group = find_group(robot, request.group());
   if (group == nullptr) {
-    std::vector<std::string> names;
-    for (const auto& known : robot.joint_groups()) names.push_back(known.name());
-    return refuse_argument("joint-group-unknown", {quoted(request.group()), join(names)});
+    return refuse_argument(
+        "joint-group-unknown",
+        {quoted(request.group()), joined(robot.joint_groups(), &naoremote::JointGroup::name)});
   }
   auto speed = check_speed(request.speed(), kDefaultJointSpeed);
   if (auto* refusal = std::get_if<Refusal>(&speed)) return std::move(*refusal);
@@ -177,7 +171,7 @@ std::variant<ActionCommand, Refusal> check(const naoremote::DoAction& request,
                                            const naoremote::RobotDescription& robot) {
   if (!contains(robot.actions(), request.action())) {
     return refuse_argument(
-        Reason("action-unknown", {quoted(request.action()), join(robot.actions())}));
+        Reason("action-unknown", {quoted(request.action()), joined(robot.actions())}));
   }
   constexpr double kAbsent = std::numeric_limits<double>::quiet_NaN();
   ActionCommand command{request.action(), kAbsent, kAbsent, kAbsent};
@@ -249,7 +243,7 @@ std::variant<ImageSelection, Refusal> check(const naoremote::ImageRequest& reque
   if (selection.camera.empty() && !robot.cameras().empty()) selection.camera = robot.cameras(0);
   // A robot without cameras still accepts the empty name, so that its states can be subscribed to.
   if (!request.camera().empty() && !contains(robot.cameras(), request.camera())) {
-    return refuse_argument("camera-unknown", {quoted(request.camera()), join(robot.cameras())});
+    return refuse_argument("camera-unknown", {quoted(request.camera()), joined(robot.cameras())});
   }
   if (request.width() != 0) selection.width = request.width();
   if (!contains(kImageWidths, selection.width)) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "common/joined.h"
 #include "messages/command.h"
 
 namespace nao::gateway {
@@ -34,9 +35,8 @@ size_t Robots::choose() const {
 }
 
 Refusal Robots::refuse_unknown(const std::string& name) const {
-  std::string known;
-  for (const auto& robot : robots_) known += (known.empty() ? "" : ", ") + robot->name();
-  return {naoremote::INVALID_ARGUMENT, gateway_reason("robot-unknown", {quoted(name), known})};
+  return {naoremote::INVALID_ARGUMENT,
+          gateway_reason("robot-unknown", {quoted(name), joined(robots_, &GatewayRobot::name)})};
 }
 
 void Robots::change(ClientSession& session, size_t robot, double now) {

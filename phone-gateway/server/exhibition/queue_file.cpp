@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <set>
 
 #include "common/error.h"
@@ -117,7 +116,6 @@ std::string write_queue_state(const QueueState& state) {
   json.add("volume", state.choices.volume);
   json.add("driven", state.counts.driven);
   for (const CountField& field : kCountFields) json.add(field.name, state.counts.*field.value);
-  json.end();
   return json.take();
 }
 

@@ -18,35 +18,36 @@ TEST(JsonWriter, NestsObjectsAndArrays) {
   json.end();
   json.end();
   json.add("c", true);
-  json.end();
-  EXPECT_EQ(json.text(), R"({"a":1,"b":["x",{}],"c":true})");
+  // The outer object is unfinished.
+  EXPECT_EQ(json.take(), R"({"a":1,"b":["x",{}],"c":true})");
 }
 
 TEST(JsonWriter, EscapesQuotesAndControlCharacters) {
   JsonWriter json;
   json.add("", "say \"no\"\\\n");
-  EXPECT_EQ(json.text(), R"("say \"no\"\\\n")");
+  EXPECT_EQ(json.take(), R"("say \"no\"\\\n")");
 }
 
 TEST(JsonWriter, ReplacesBytesThatAreNotUtf8) {
   JsonWriter json;
   json.add("", "a\xff");
-  EXPECT_EQ(json.text(), "\"a\xef\xbf\xbd\"");
+  EXPECT_EQ(json.take(), "\"a\xef\xbf\xbd\"");
 }
 
 TEST(JsonWriter, KeepsAllDigitsAndWritesNanAsNull) {
   JsonWriter json;
   const double values[] = {0.1, 1.0 / 3, std::nan(""), -INFINITY};
   json.add("", values, 4);
-  EXPECT_EQ(json.text(), "[0.1,0.3333333333333333,null,null]");
+  EXPECT_EQ(json.take(), "[0.1,0.3333333333333333,null,null]");
 }
 
 TEST(JsonWriter, WritesNumbersThatReadBackEqual) {
   for (const double value : {0.0, -1.0, 1e5, 1e-7, 1e300, 5e-324, 123456.75, 2.0 / 3}) {
     JsonWriter json;
     json.add("", value);
-    EXPECT_EQ(std::strtod(json.text().c_str(), nullptr), value) << json.text();
-    EXPECT_NE(json.text().find_first_of(".e"), std::string::npos) << json.text();
+    const std::string text = json.take();
+    EXPECT_EQ(std::strtod(text.c_str(), nullptr), value) << text;
+    EXPECT_NE(text.find_first_of(".e"), std::string::npos) << text;
   }
 }
 
@@ -70,7 +71,7 @@ TEST(JsonWriter, TakesValuesThatAreJson) {
   json.add_json("", R"({"a":[]})");
   json.add_json("", "1");
   json.end();
-  EXPECT_EQ(json.text(), R"([{"a":[]},1])");
+  EXPECT_EQ(json.take(), R"([{"a":[]},1])");
 }
 
 }  // namespace

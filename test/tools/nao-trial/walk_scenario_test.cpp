@@ -5,7 +5,7 @@
 #include "common/data_path.h"
 #include "robot_model/scene_file.h"
 #include "test/support/temporary_folder.h"
-#include "tools/nao-trial/walk_scenarios.h"
+#include "tools/nao-trial/scenarios.h"
 
 namespace nao::trial {
 namespace {
@@ -16,7 +16,7 @@ RunResult walk(const std::filesystem::path& folder, double speed) {
   options.trial.scene = SceneFile::find("empty");
   options.velocity.x() = speed;
   options.duration = 3;
-  return WalkScenario().run(options, 1).front();
+  return walk_scenario().run(options, 1).front();
 }
 
 TEST(WalkScenario, FailsBelowHalfOfTheCommandedVelocity) {

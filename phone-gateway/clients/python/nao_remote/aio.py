@@ -8,13 +8,14 @@ from typing import Callable, Mapping
 
 from nao_remote import remote_pb2 as pb
 from nao_remote.address import resolve
+from nao_remote.by_name import ByName
 from nao_remote.command import Command
 from nao_remote.connection import Connection
 from nao_remote.core import RobotCore
 from nao_remote.discovery import first_address
 from nao_remote.errors import ConnectionLost, Timeout
-from nao_remote.joints import Joints
-from nao_remote.lights import LIGHT_TIMEOUT, Color, Lights, make_request
+from nao_remote.joints import Joint
+from nao_remote.lights import LIGHT_TIMEOUT, Color, Light, make_request
 from nao_remote.messages import CommandResult, CommandStatus, Image, State
 from nao_remote.operator import Operator
 from nao_remote.streams import Stream
@@ -51,8 +52,8 @@ class Robot(RobotCore):
     def __init__(self, connection: Connection, auto_control: bool) -> None:
         super().__init__(connection, auto_control)
         # The joints and lights by name; the operator's console.
-        self.joints = Joints(self)
-        self.lights = Lights(self)
+        self.joints = ByName("joint", lambda: self.description.joints, lambda name: Joint(self, self.description.joints[name]))
+        self.lights = ByName("light", lambda: self.description.lights, lambda name: Light(self, name))
         self.operator = Operator(connection)
 
     async def __aenter__(self) -> Robot:
@@ -257,7 +258,7 @@ class Robot(RobotCore):
             await asyncio.sleep(IMAGE_POLL_PERIOD)
 
     def states(self, rate: float = 20.0, timeout: float | None = 5.0) -> Stream[State]:
-        """A stream of the newest states: `with robot.states() as states: async for state in states: ...`
+        """A stream of the newest states, to be iterated over: `with robot.states() as states: ...`
 
         @param rate  A second, up to 60; streams share the highest rate.
         @param timeout  Longest time between states while there is a connection, for iterating, s; None: without end.

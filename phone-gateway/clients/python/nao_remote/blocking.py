@@ -8,25 +8,20 @@ from __future__ import annotations
 
 import asyncio
 import concurrent.futures
+import functools
 import os
 import threading
 from contextlib import contextmanager
-from typing import Any, Callable, Coroutine, Generic, Iterator, Mapping, TypeVar
+from typing import Any, Callable, Concatenate, Coroutine, Generic, Iterator, ParamSpec, TypeVar
 
-from nao_remote import aio
-from nao_remote import remote_pb2 as pb
-from nao_remote.aio import CHECK_TIMEOUT, MOTION_TIMEOUT, PLAY_TIMEOUT
-from nao_remote.command import Command as AsyncCommand
+from nao_remote import aio, command, joints, lights, operator, streams
+from nao_remote.by_name import ByName
 from nao_remote.errors import Closed
-from nao_remote.joints import Joint as AsyncJoint
-from nao_remote.lights import LIGHT_TIMEOUT, Color
-from nao_remote.lights import Light as AsyncLight
-from nao_remote.messages import (Client, CommandResult, Control, Event, Image, JointDescription, Pong, RobotDescription,
-                                 RobotEntry, State)
-from nao_remote.operator import Operator as AsyncOperator
-from nao_remote.streams import Stream as AsyncStream
+from nao_remote.messages import Control, JointDescription, RobotDescription, RobotEntry
 
 T = TypeVar("T")
+A = TypeVar("A")
+P = ParamSpec("P")
 
 # Longest time that close() waits for what is still being done, s. Chosen: a cancelled task needs milliseconds.
 CLOSE_TIMEOUT = 2.0
@@ -138,25 +133,60 @@ async def _cancel_other_tasks() -> None:
         await asyncio.wait(tasks, timeout=CLOSE_TIMEOUT)
 
 
-class Stream(Generic[T]):
-    """Values as they arrive: `for state in robot.states(): ...`. See nao_remote.streams.Stream."""
+class _Face(Generic[A]):
+    """Face of an object that lives in the loop."""
 
-    def __init__(self, stream: AsyncStream[T], loop: LoopThread) -> None:
-        self._stream = stream
+    def __init__(self, inner: A, loop: LoopThread) -> None:
+        self._inner = inner
         self._loop = loop
+
+
+def _waiting(method: Callable[Concatenate[Any, P], Coroutine[Any, Any, T]]) -> Callable[Concatenate[_Face[Any], P], T]:
+    """@return the method of a face that executes one in the loop and waits for it."""
+
+    @functools.wraps(method)
+    def wait(self: _Face[Any], /, *arguments: P.args, **keywords: P.kwargs) -> T:
+        return self._loop.call(method(self._inner, *arguments, **keywords))
+
+    return wait
+
+
+def _commanding(method: Callable[Concatenate[Any, P], Coroutine[Any, Any, command.Command]]
+                ) -> Callable[Concatenate[_Face[Any], P], Command]:
+    """As _waiting(), for one that gives a command."""
+
+    @functools.wraps(method)
+    def wait(self: _Face[Any], /, *arguments: P.args, **keywords: P.kwargs) -> Command:
+        return Command(self._loop.call(method(self._inner, *arguments, **keywords)), self._loop)
+
+    return wait
+
+
+def _streaming(method: Callable[Concatenate[Any, P], streams.Stream[T]]) -> Callable[Concatenate[_Face[Any], P], Stream[T]]:
+    """As _waiting(), for one that opens a stream."""
+
+    @functools.wraps(method)
+    def wait(self: _Face[Any], /, *arguments: P.args, **keywords: P.kwargs) -> Stream[T]:
+        return Stream(self._loop.run(method, self._inner, *arguments, **keywords), self._loop)
+
+    return wait
+
+
+class Stream(_Face[streams.Stream[T]], Generic[T]):
+    """Values as they arrive: `for state in robot.states(): ...`. See nao_remote.streams.Stream."""
 
     def __iter__(self) -> Stream[T]:
         return self
 
     def __next__(self) -> T:
         try:
-            return self._loop.call(self._stream.read())
+            return self._loop.call(self._inner.read())
         except StopAsyncIteration as end:
             raise StopIteration from end
 
     def next(self, timeout: float | None) -> T:
         """As iterating, with another timeout, s. @raise Timeout. @raise StopIteration  after close()."""
-        return self._loop.call(self._stream.next(timeout))
+        return self._loop.call(self._inner.next(timeout))
 
     def __enter__(self) -> Stream[T]:
         return self
@@ -167,171 +197,81 @@ class Stream(Generic[T]):
     @property
     def num_skipped(self) -> int:
         """Values that were replaced before they were read."""
-        return self._stream.num_skipped
+        return self._inner.num_skipped
 
     def close(self) -> None:
         """Ends the stream. One that is no longer referenced is closed by itself."""
-        self._loop.post(self._stream.close)
+        self._loop.post(self._inner.close)
 
     __del__ = close
 
 
-class Command:
+class Command(_Face[command.Command]):
     """A motion command that was passed on to the robot."""
-
-    def __init__(self, command: AsyncCommand, loop: LoopThread) -> None:
-        self._command = command
-        self._loop = loop
 
     @property
     def request_id(self) -> int:
         """Number of its request, which its CommandResult events have, too."""
-        return self._command.request_id
+        return self._inner.request_id
 
     @property
     def is_done(self) -> bool:
         """True when the command has ended, well or not."""
-        return self._command.is_done
+        return self._inner.is_done
 
-    def wait(self, timeout: float = MOTION_TIMEOUT) -> CommandResult:
-        """Waits until the robot has done it; see nao_remote.command.Command.wait()."""
-        return self._loop.call(self._command.wait(timeout))
+    wait = _waiting(command.Command.wait)
 
 
-class Joint:
-    """One joint; see nao_remote.joints.Joint."""
-
-    def __init__(self, joint: AsyncJoint, loop: LoopThread) -> None:
-        self._joint = joint
-        self._loop = loop
+class Joint(_Face[joints.Joint]):
+    """One joint of a connected robot."""
 
     @property
     def name(self) -> str:
-        return self._joint.name
+        return self._inner.name
 
     @property
     def description(self) -> JointDescription:
-        return self._joint.description
+        return self._inner.description
 
-    def position(self) -> float:
-        """@return the measured angle, rad (hands: opening 0 to 1)."""
-        return self._loop.call(self._joint.position())
-
-    def move_by(self, change: float, speed: float = 0.0, *, allow_tipping: bool = False, wait: bool = True,
-                timeout: float = MOTION_TIMEOUT) -> Command:
-        """Turns it by an angle, rad, from its present target."""
-        return Command(self._loop.call(self._joint.move_by(
-            change, speed, allow_tipping=allow_tipping, wait=wait, timeout=timeout)), self._loop)
-
-    def move_to(self, angle: float, speed: float = 0.0, *, allow_tipping: bool = False, wait: bool = True,
-                timeout: float = MOTION_TIMEOUT) -> Command:
-        """Turns it to an angle, rad, clipped to its limits."""
-        return Command(self._loop.call(self._joint.move_to(
-            angle, speed, allow_tipping=allow_tipping, wait=wait, timeout=timeout)), self._loop)
+    position = _waiting(joints.Joint.position)
+    move_by = _commanding(joints.Joint.move_by)
+    move_to = _commanding(joints.Joint.move_to)
 
 
-class Joints(Mapping[str, Joint]):
-    """All joints by name."""
-
-    def __init__(self, joints: Mapping[str, AsyncJoint], loop: LoopThread) -> None:
-        self._joints = joints
-        self._loop = loop
-
-    def __getitem__(self, name: str) -> Joint:
-        return Joint(self._joints[name], self._loop)
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._joints)
-
-    def __len__(self) -> int:
-        return len(self._joints)
-
-
-class Light:
-    """One light; see nao_remote.lights.Light."""
-
-    def __init__(self, light: AsyncLight, loop: LoopThread) -> None:
-        self._light = light
-        self._loop = loop
+class Light(_Face[lights.Light]):
+    """One light of a connected robot."""
 
     @property
     def name(self) -> str:
-        return self._light.name
+        return self._inner.name
 
-    def color(self) -> tuple[float, float, float]:
-        """@return red, green and blue that it shows, each 0 to 1."""
-        return self._loop.call(self._light.color())
-
-    def set(self, color: Color, duration: float = 0.0, *, timeout: float = LIGHT_TIMEOUT) -> Command:
-        """Sets its color: "#ff8000", or red, green and blue, each 0 to 1."""
-        return Command(self._loop.call(self._light.set(color, duration, timeout=timeout)), self._loop)
+    color = _waiting(lights.Light.color)
+    set = _commanding(lights.Light.set)
 
 
-class Lights(Mapping[str, Light]):
-    """All lights by name."""
+class Operator(_Face[operator.Operator]):
+    """The operator's console; its methods raise NotAllowed on another host."""
 
-    def __init__(self, lights: Mapping[str, AsyncLight], loop: LoopThread) -> None:
-        self._lights = lights
-        self._loop = loop
-
-    def __getitem__(self, name: str) -> Light:
-        return Light(self._lights[name], self._loop)
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._lights)
-
-    def __len__(self) -> int:
-        return len(self._lights)
+    clients = _waiting(operator.Operator.clients)
+    take_control = _waiting(operator.Operator.take_control)
+    release_control = _waiting(operator.Operator.release_control)
+    mute = _waiting(operator.Operator.mute)
+    unmute = _waiting(operator.Operator.unmute)
+    assign = _waiting(operator.Operator.assign)
+    kick = _waiting(operator.Operator.kick)
 
 
-class Operator:
-    """The operator's console; see nao_remote.operator.Operator."""
-
-    def __init__(self, operator: AsyncOperator, loop: LoopThread) -> None:
-        self._operator = operator
-        self._loop = loop
-
-    def clients(self) -> list[Client]:
-        """@return the gateway's clients."""
-        return self._loop.call(self._operator.clients())
-
-    def take_control(self, robot: str = "") -> None:
-        """Takes control from every client until release_control()."""
-        self._loop.call(self._operator.take_control(robot))
-
-    def release_control(self, robot: str = "") -> None:
-        """Lets clients drive again."""
-        self._loop.call(self._operator.release_control(robot))
-
-    def mute(self, client_id: int) -> None:
-        """Lets a client watch only."""
-        self._loop.call(self._operator.mute(client_id))
-
-    def unmute(self, client_id: int) -> None:
-        """Lets a client drive again."""
-        self._loop.call(self._operator.unmute(client_id))
-
-    def assign(self, client_id: int, robot: str = "") -> None:
-        """Lets a client drive a robot."""
-        self._loop.call(self._operator.assign(client_id, robot))
-
-    def kick(self, client_id: int) -> None:
-        """Closes a client's connection."""
-        self._loop.call(self._operator.kick(client_id))
-
-
-class Robot:
-    """A connected robot. Each method is that of nao_remote.aio.Robot, where its parameters are explained.
+class Robot(_Face[aio.Robot]):
+    """A connected robot. Each method is that of nao_remote.aio.Robot.
 
     It has more than 25 methods: it is the whole interface of scripts.
     """
 
     def __init__(self, robot: aio.Robot, loop: LoopThread) -> None:
-        self._robot = robot
-        self._loop = loop
+        super().__init__(robot, loop)
         # The joints and lights by name; the operator's console.
-        self.joints = Joints(robot.joints, loop)
-        self.lights = Lights(robot.lights, loop)
+        self.joints = ByName("joint", lambda: robot.joints, lambda name: Joint(robot.joints[name], loop))
+        self.lights = ByName("light", lambda: robot.lights, lambda name: Light(robot.lights[name], loop))
         self.operator = Operator(robot.operator, loop)
 
     def __enter__(self) -> Robot:
@@ -342,12 +282,12 @@ class Robot:
 
     def __del__(self) -> None:
         # Nobody could end its walk any more. The connection stays, for streams.
-        self._loop.post(self._robot._end_walk_soon)
+        self._loop.post(self._inner._end_walk_soon)
 
     def close(self) -> None:
         """Ends the connection. A walk of this client ends, too."""
         try:
-            self._loop.call(self._robot.close())
+            self._loop.call(self._inner.close())
         except Closed:
             return
         self._loop.close()
@@ -355,51 +295,34 @@ class Robot:
     @property
     def is_connected(self) -> bool:
         """False from the loss of a connection until the client has connected again."""
-        return self._robot.is_connected
+        return self._inner.is_connected
 
     @property
     def client_id(self) -> int:
         """Number of this client at the gateway; a new one for each connection."""
-        return self._robot.client_id
+        return self._inner.client_id
 
     @property
     def description(self) -> RobotDescription:
         """The robot's joints, postures, actions, cameras and limits."""
-        return self._robot.description
+        return self._inner.description
 
     @property
     def control(self) -> Control:
         """Who drives, as far as this client knows."""
-        return self._robot.control
+        return self._inner.control
 
     @property
     def robots(self) -> tuple[RobotEntry, ...]:
         """The robots of a gateway of several; empty where there is only one."""
-        return self._robot.robots
+        return self._inner.robots
 
-    def watch(self, robot: str) -> RobotDescription:
-        """Watches another robot of the gateway."""
-        return self._loop.call(self._robot.watch(robot))
-
-    def wait_until_connected(self, timeout: float = 30.0) -> None:
-        """Waits until the client has connected again."""
-        self._loop.call(self._robot.wait_until_connected(timeout))
-
-    def request(self, **use_case: Any) -> pb.Response:
-        """Sends any request of the protocol."""
-        return self._loop.call(self._robot.request(**use_case))
-
-    def ping(self) -> Pong:
-        """Measures the time to the gateway and back; relates the clocks."""
-        return self._loop.call(self._robot.ping())
-
-    def take_control(self, robot: str = "") -> Control:
-        """Asks for control, of another one of several robots if it is named."""
-        return self._loop.call(self._robot.take_control(robot))
-
-    def release_control(self) -> Control:
-        """Lets other clients drive."""
-        return self._loop.call(self._robot.release_control())
+    watch = _waiting(aio.Robot.watch)
+    wait_until_connected = _waiting(aio.Robot.wait_until_connected)
+    request = _waiting(aio.Robot.request)
+    ping = _waiting(aio.Robot.ping)
+    take_control = _waiting(aio.Robot.take_control)
+    release_control = _waiting(aio.Robot.release_control)
 
     @contextmanager
     def driving(self) -> Iterator[Control]:
@@ -411,100 +334,24 @@ class Robot:
             if self.is_connected:
                 self.release_control()
 
-    def walk(self, vx: float = 0.0, vy: float = 0.0, wz: float = 0.0, duration: float | None = None) -> Command:
-        """Walks at a velocity: m/s forward, m/s and rad/s to the left; for `duration` s, or until the next motion."""
-        return self._command(self._robot.walk(vx, vy, wz, duration))
-
-    def move_to(self, x: float = 0.0, y: float = 0.0, theta: float = 0.0, *, wait: bool = True,
-                timeout: float = MOTION_TIMEOUT) -> Command:
-        """Walks to a pose relative to the present one: m forward, m to the left, rad to the left."""
-        return self._command(self._robot.move_to(x, y, theta, wait=wait, timeout=timeout))
-
-    def posture(self, posture: str, speed: float = 0.0, *, wait: bool = True, timeout: float = MOTION_TIMEOUT) -> Command:
-        """Goes to a posture of `description.postures`."""
-        return self._command(self._robot.posture(posture, speed, wait=wait, timeout=timeout))
-
-    def change_joints(self, group: str, *, yaw: float = 0.0, pitch: float = 0.0, roll: float = 0.0, speed: float = 0.0,
-                      allow_tipping: bool = False, both_sides: bool = False, wait: bool = True,
-                      timeout: float = MOTION_TIMEOUT) -> Command:
-        """Turns the joints of a group of `description.joint_groups` relative to their present targets, rad."""
-        return self._command(self._robot.change_joints(
-            group, yaw=yaw, pitch=pitch, roll=roll, speed=speed, allow_tipping=allow_tipping, both_sides=both_sides,
-            wait=wait, timeout=timeout))
-
-    def action(self, action: str, *, ball: tuple[float, float] | None = None, strength: float | None = None,
-               wait: bool = True, timeout: float = MOTION_TIMEOUT) -> Command:
-        """Performs an action of `description.actions`."""
-        return self._command(self._robot.action(action, ball=ball, strength=strength, wait=wait, timeout=timeout))
-
-    def play(self, behavior: str, *, target: tuple[float, float] | None = None, wait: bool = True,
-             timeout: float = PLAY_TIMEOUT) -> Command:
-        """See aio.Robot.play()."""
-        return self._command(self._robot.play(behavior, target=target, wait=wait, timeout=timeout))
-
-    def say(self, text: str, *, language: str = "", volume: float = 1.0, rate: float = 1.0, after: bool = False,
-            wait: bool = True, timeout: float = MOTION_TIMEOUT) -> Command:
-        """Speaks a text of at most 1000 bytes; the robot may move meanwhile."""
-        return self._command(self._robot.say(text, language=language, volume=volume, rate=rate, after=after, wait=wait,
-                                             timeout=timeout))
-
-    def stop_speaking(self, *, timeout: float = MOTION_TIMEOUT) -> Command:
-        """Ends what is being said, and what waits."""
-        return self._command(self._robot.stop_speaking(timeout=timeout))
-
-    def set_lights(self, colors: Mapping[str, Color], duration: float = 0.0, *,
-                   timeout: float = LIGHT_TIMEOUT) -> Command:
-        """Sets several lights of `description.lights` at once."""
-        return self._command(self._robot.set_lights(colors, duration, timeout=timeout))
-
-    def motions(self) -> list[str]:
-        """@return the names of the motions that are saved on the robot's host; each is an action, too."""
-        return self._loop.call(self._robot.motions())
-
-    def motion(self, name: str) -> str:
-        """@return the text of a saved motion, YAML."""
-        return self._loop.call(self._robot.motion(name))
-
-    def check_motion(self, motion: str | pb.Motion, timeout: float = CHECK_TIMEOUT) -> None:
-        """Checks a motion in a simulation, which takes seconds, without saving it."""
-        self._loop.call(self._robot.check_motion(motion, timeout))
-
-    def save_motion(self, motion: str | pb.Motion, *, replace: bool = False, timeout: float = CHECK_TIMEOUT) -> None:
-        """Checks a motion and saves it: action() plays it by its name."""
-        self._loop.call(self._robot.save_motion(motion, replace=replace, timeout=timeout))
-
-    def delete_motion(self, name: str) -> None:
-        """Deletes a saved motion."""
-        self._loop.call(self._robot.delete_motion(name))
-
-    def stop(self) -> None:
-        """Ends any motion, also another client's; needs no control."""
-        self._loop.call(self._robot.stop())
-
-    def state(self) -> State:
-        """@return the newest state."""
-        return self._loop.call(self._robot.state())
-
-    def wait_until(self, condition: Callable[[State], bool], timeout: float = MOTION_TIMEOUT, rate: float = 20.0) -> State:
-        """@return the first state for which the condition holds."""
-        return self._loop.call(self._robot.wait_until(condition, timeout, rate))
-
-    def image(self, camera: str = "", width: int = 0, quality: int = 0, timeout: float = 5.0) -> Image:
-        """@return an image of a head camera that this client has not received yet."""
-        return self._loop.call(self._robot.image(camera, width, quality, timeout))
-
-    def states(self, rate: float = 20.0, timeout: float | None = 5.0) -> Stream[State]:
-        """A stream of the newest states: `for state in robot.states(): ...`"""
-        return Stream(self._loop.run(self._robot.states, rate, timeout), self._loop)
-
-    def images(self, rate: float = 15.0, camera: str = "", width: int = 0, quality: int = 0,
-               timeout: float | None = 5.0) -> Stream[Image]:
-        """A stream of the newest images."""
-        return Stream(self._loop.run(self._robot.images, rate, camera, width, quality, timeout), self._loop)
-
-    def events(self, timeout: float | None = None) -> Stream[Event]:
-        """A stream of what happens from now on."""
-        return Stream(self._loop.run(self._robot.events, timeout), self._loop)
-
-    def _command(self, request: Coroutine[Any, Any, AsyncCommand]) -> Command:
-        return Command(self._loop.call(request), self._loop)
+    walk = _commanding(aio.Robot.walk)
+    move_to = _commanding(aio.Robot.move_to)
+    posture = _commanding(aio.Robot.posture)
+    change_joints = _commanding(aio.Robot.change_joints)
+    action = _commanding(aio.Robot.action)
+    play = _commanding(aio.Robot.play)
+    say = _commanding(aio.Robot.say)
+    stop_speaking = _commanding(aio.Robot.stop_speaking)
+    set_lights = _commanding(aio.Robot.set_lights)
+    motions = _waiting(aio.Robot.motions)
+    motion = _waiting(aio.Robot.motion)
+    check_motion = _waiting(aio.Robot.check_motion)
+    save_motion = _waiting(aio.Robot.save_motion)
+    delete_motion = _waiting(aio.Robot.delete_motion)
+    stop = _waiting(aio.Robot.stop)
+    state = _waiting(aio.Robot.state)
+    wait_until = _waiting(aio.Robot.wait_until)
+    image = _waiting(aio.Robot.image)
+    states = _streaming(aio.Robot.states)
+    images = _streaming(aio.Robot.images)
+    events = _streaming(aio.Robot.events)

@@ -97,7 +97,7 @@ class RobotCore:
             while not self.is_connected:
                 await events.next(max(0.0, deadline - asyncio.get_running_loop().time()))
 
-    async def request(self, **use_case: Any) -> pb.Response:
+    async def request(self, /, **use_case: Any) -> pb.Response:
         """Sends any request of the protocol, for those that have no method: `request(ping=pb.Ping())`.
 
         @return the response. @raise Refused  if it is an error.

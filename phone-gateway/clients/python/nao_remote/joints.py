@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Iterator, Mapping
+from typing import TYPE_CHECKING
 
 from nao_remote.errors import InvalidArgument
 from nao_remote.messages import JointDescription, RobotDescription
@@ -66,22 +66,3 @@ class Joint:
         limits = self.description
         change = min(max(angle, limits.lower), limits.upper) - await self.position()
         return await self.move_by(change or LEAST_CHANGE, speed, allow_tipping=allow_tipping, wait=wait, timeout=timeout)
-
-
-class Joints(Mapping[str, Joint]):
-    """All joints by name."""
-
-    def __init__(self, robot: Robot) -> None:
-        self._robot = robot
-
-    def __getitem__(self, name: str) -> Joint:
-        joints = self._robot.description.joints
-        if name not in joints:
-            raise KeyError(f"the robot has no joint {name!r}; it has {', '.join(joints)}")
-        return Joint(self._robot, joints[name])
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._robot.description.joints)
-
-    def __len__(self) -> int:
-        return len(self._robot.description.joints)

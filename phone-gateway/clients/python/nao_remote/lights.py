@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Iterator, Mapping, Union
+from typing import TYPE_CHECKING, Mapping, Union
 
 from nao_remote import remote_pb2 as pb
 
@@ -52,25 +52,6 @@ class Light:
         @param duration  s, after which it shows what it showed before; 0: until replaced.
         """
         return await self._robot.set_lights({self.name: color}, duration, timeout=timeout)
-
-
-class Lights(Mapping[str, Light]):
-    """All lights by name."""
-
-    def __init__(self, robot: Robot) -> None:
-        self._robot = robot
-
-    def __getitem__(self, name: str) -> Light:
-        lights = self._robot.description.lights
-        if name not in lights:
-            raise KeyError(f"the robot has no light {name!r}; it has {', '.join(lights)}")
-        return Light(self._robot, name)
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._robot.description.lights)
-
-    def __len__(self) -> int:
-        return len(self._robot.description.lights)
 
 
 def make_request(colors: Mapping[str, Color], duration: float) -> pb.SetLights:

@@ -8,12 +8,21 @@ from __future__ import annotations
 
 import enum
 import os
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from pathlib import Path
-from typing import Any, Mapping, Union
+from typing import Any, Mapping, TypeVar, Union, cast
 
 from nao_remote import remote_pb2 as pb
 from nao_remote.lights import from_rgb
+
+T = TypeVar("T")
+
+
+def plain(kind: type[T], message: Any, /, **others: Any) -> T:
+    """@return an object of a dataclass whose fields have the names of the message's, lists as tuples; `others` are given."""
+    values = {entry.name: getattr(message, entry.name) for entry in fields(cast(Any, kind)) if entry.name not in others}
+    return kind(**{name: value if isinstance(value, (str, bytes, int, float)) else tuple(value)
+                   for name, value in values.items()}, **others)
 
 
 class Mode(enum.IntEnum):
@@ -132,20 +141,13 @@ class RobotDescription:
     @staticmethod
     def from_protocol(message: pb.RobotDescription) -> RobotDescription:
         roles = {role.name: role for role in message.action_roles}
-        return RobotDescription(
-            name=message.name, model=message.model, urdf_path=message.urdf_path,
-            joints={joint.name: JointDescription(joint.name, joint.lower, joint.upper, joint.max_velocity)
-                    for joint in message.joints},
-            joint_groups={group.name: JointGroup(group.name, group.yaw_joint, group.pitch_joint, group.roll_joint,
-                                                 group.is_opening) for group in message.joint_groups},
-            postures=tuple(message.postures),
+        return plain(
+            RobotDescription, message, joints={joint.name: plain(JointDescription, joint) for joint in message.joints},
+            joint_groups={group.name: plain(JointGroup, group) for group in message.joint_groups},
             actions={name: Action(name, roles[name].kind if name in roles else "", roles[name].side if name in roles else "")
                      for name in message.actions},
-            cameras=tuple(message.cameras), max_vx=message.max_vx, min_vx=message.min_vx, max_vy=message.max_vy,
-            max_wz=message.max_wz, ready_posture=message.ready_posture, stand_posture=message.stand_posture,
-            rest_posture=message.rest_posture, camera_group=message.camera_group,
             labels={(label.kind, label.name, label.language): label.text for label in message.labels},
-            languages=tuple(message.languages), lights=tuple(light.name for light in message.lights))
+            lights=tuple(light.name for light in message.lights))
 
 
 @dataclass(frozen=True)
@@ -176,11 +178,8 @@ class Body:
 
     @staticmethod
     def from_protocol(message: pb.Body) -> Body:
-        return Body(
-            battery_charge=message.battery_charge if message.HasField("battery_charge") else None,
-            is_charging=message.is_charging, hottest_joint=message.hottest_joint,
-            hottest_temperature=message.hottest_temperature, warnings=tuple(message.warnings),
-            faulty_joints=tuple(message.faulty_joints))
+        return plain(Body, message,
+                     battery_charge=message.battery_charge if message.HasField("battery_charge") else None)
 
 
 @dataclass(frozen=True)
@@ -216,14 +215,10 @@ class State:
     def from_protocol(message: pb.State, robot: RobotDescription) -> State:
         activity = None
         if message.HasField("activity"):
-            activity = Activity(_member(CommandKind, message.activity.kind, CommandKind.NONE), message.activity.name,
-                                message.activity.needs_help)
-        return State(
-            utime=message.utime, age_ms=message.age_ms,
-            joint_position=dict(zip(robot.joints, message.joint_position)),
-            torso_orientation=tuple(message.torso_orientation), torso_position=tuple(message.torso_position),
-            mode=_member(Mode, message.mode, Mode.MOVING), posture=message.posture, activity=activity,
-            progress=message.progress, vx=message.vx, vy=message.vy, wz=message.wz, stiffness=message.stiffness,
+            activity = plain(Activity, message.activity, kind=_member(CommandKind, message.activity.kind, CommandKind.NONE))
+        return plain(
+            State, message, joint_position=dict(zip(robot.joints, message.joint_position)),
+            mode=_member(Mode, message.mode, Mode.MOVING), activity=activity,
             light_rgb={name: from_rgb(rgb) for name, rgb in zip(robot.lights, message.light_rgb)},
             body=Body.from_protocol(message.body) if message.HasField("body") else None)
 
@@ -244,7 +239,7 @@ class Image:
 
     @staticmethod
     def from_protocol(message: pb.Image) -> Image:
-        return Image(message.utime, message.age_ms, message.camera, message.width, message.height, message.jpeg)
+        return plain(Image, message)
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes the JPEG file, which appears whole or not at all."""
@@ -291,7 +286,7 @@ class Control:
 
     @staticmethod
     def from_protocol(message: pb.Control) -> Control:
-        return Control(message.driver_id, message.driver_name, message.is_mine, message.is_muted)
+        return plain(Control, message)
 
 
 @dataclass(frozen=True)
@@ -311,8 +306,8 @@ class RobotEntry:
 
     @staticmethod
     def from_protocol(message: pb.RobotList) -> tuple[RobotEntry, ...]:
-        return tuple(RobotEntry(robot.name, robot.model, robot.team if robot.HasField("team") else None, robot.number,
-                                robot.driver_id, robot.driver_name, robot.is_available) for robot in message.robots)
+        return tuple(plain(RobotEntry, robot, team=robot.team if robot.HasField("team") else None)
+                     for robot in message.robots)
 
 
 @dataclass(frozen=True)
@@ -334,8 +329,7 @@ class Client:
 
     @staticmethod
     def from_protocol(message: pb.Clients.Client) -> Client:
-        return Client(message.client_id, message.name, message.address, message.transport, message.is_driver,
-                      message.num_sent, message.num_skipped, message.robot, message.is_muted)
+        return plain(Client, message)
 
 
 @dataclass(frozen=True)

@@ -902,7 +902,7 @@ class Memory(WithGateway):
             after = [use() for _ in range(4)][-1]
         # B. Four times 100 rounds with 4 kB each would be 1.6 MB; caches of the interpreter are allowed.
         self.assertLess(after - before, 100_000)
-        self.assertEqual(robot._robot._commands, {})
+        self.assertEqual(robot._inner._commands, {})
 
 
 class Asyncio(WithGateway):

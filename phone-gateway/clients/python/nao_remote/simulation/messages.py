@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Mapping
 
 from nao_remote import simulation_pb2 as pb
-from nao_remote.messages import CommandStatus, JointDescription, Mode
+from nao_remote.messages import CommandStatus, JointDescription, Mode, plain
 
 
 @dataclass(frozen=True)
@@ -31,11 +31,8 @@ class SimulationDescription:
 
     @staticmethod
     def from_protocol(message: pb.Description) -> SimulationDescription:
-        joints = {joint.name: JointDescription(joint.name, joint.lower, joint.upper, joint.max_velocity)
-                  for joint in message.joints}
-        return SimulationDescription(
-            message.model, message.engine, message.disturbances, joints, tuple(message.postures), tuple(message.actions),
-            tuple(message.foot_sensors), message.max_vx, message.min_vx, message.max_vy, message.max_wz)
+        joints = {joint.name: plain(JointDescription, joint) for joint in message.joints}
+        return plain(SimulationDescription, message, joints=joints)
 
 
 @dataclass(frozen=True)
@@ -98,20 +95,6 @@ class SimulationState:
 
     @staticmethod
     def from_protocol(message: pb.State) -> SimulationState:
-        truth = None
-        if message.HasField("truth"):
-            truth = Truth(tuple(message.truth.torso_position), tuple(message.truth.torso_orientation),
-                          tuple(message.truth.joint_position), tuple(message.truth.ball_position))
-        return SimulationState(
-            time=message.time, period=message.period, joint_position=tuple(message.joint_position),
-            joint_velocity=tuple(message.joint_velocity), joint_torque=tuple(message.joint_torque),
-            joint_target=tuple(message.joint_target), motion_target=tuple(message.motion_target), accelerometer=tuple(message.accelerometer),
-            gyroscope=tuple(message.gyroscope), orientation_torso_in_world=tuple(message.orientation_torso_in_world),
-            foot_force=tuple(message.foot_force), torso_position=tuple(message.torso_position),
-            torso_orientation=tuple(message.torso_orientation),
-            velocity_torso_in_heading=tuple(message.velocity_torso_in_heading),
-            left_foot_carries=message.left_foot_carries, right_foot_carries=message.right_foot_carries,
-            mode=Mode(message.mode), posture=message.posture, command_ids=tuple(message.command_ids),
-            results=tuple(SimulationResult(result.command_id, CommandStatus(result.status), result.reason_code, result.reason)
-                          for result in message.results),
-            truth=truth)
+        truth = plain(Truth, message.truth) if message.HasField("truth") else None
+        results = tuple(plain(SimulationResult, result, status=CommandStatus(result.status)) for result in message.results)
+        return plain(SimulationState, message, mode=Mode(message.mode), results=results, truth=truth)
