@@ -176,6 +176,13 @@ CollisionModel::CollisionModel(const RobotModel& model, const Tree& tree, int nu
     }
   }
 
+  for (const Point& point : points) {
+    point_x.push_back(point.center_in_body.x());
+    point_y.push_back(point.center_in_body.y());
+    point_z.push_back(point.center_in_body.z());
+    point_radius.push_back(point.radius);
+  }
+
   // Largest distance of a surface point from the root's origin: the length of the chain of joint
   // origins at full stretch bounds it for all joint angles.
   for (const Part& part : parts) {

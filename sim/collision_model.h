@@ -35,6 +35,11 @@ struct CollisionModel {
 
   std::vector<Part> parts;
   std::vector<Point> points;
+  /** Centers and radii of `points`, one after the other, for loops over all. */
+  std::vector<double> point_x;
+  std::vector<double> point_y;
+  std::vector<double> point_z;
+  std::vector<double> point_radius;
   /** Pairs of parts (the smaller index first) that collide with each other: on different bodies,
    * and not allowed to touch by robot.yaml's contact_clusters. */
   std::vector<std::pair<int, int>> self_pairs;

@@ -14,18 +14,18 @@ template <class Work>
   return with_constant<4, 6>(count, work);
 }
 
-/** Two sums side by side, so that additions need not wait for each other. @param count  1 or more.
+/** Two sums side by side, so that additions need not wait for each other. @param count  2 or more.
  */
 template <class Count>
 [[gnu::always_inline]] inline double dot(const EntryPair* a, const EntryPair* b, Count count) {
   EntryPair even = a[0] * b[0];
-  EntryPair odd = EntryPair::Zero();
-  int i = 1;
+  EntryPair odd = a[1] * b[1];
+  int i = 2;
   for (; i + 1 < count; i += 2) {
-    odd += a[i] * b[i];
-    even += a[i + 1] * b[i + 1];
+    even += a[i] * b[i];
+    odd += a[i + 1] * b[i + 1];
   }
-  if (i < count) odd += a[i] * b[i];
+  if (i < count) even += a[i] * b[i];
   return (even + odd).sum();
 }
 
@@ -216,13 +216,11 @@ int ConstraintSolver::end_row() {
 }
 
 void ConstraintSolver::complete(JointRow& row) {
-  const double diagonal = with_constant_pairs(
-      row.num_pairs, [&](auto count) { return dot(row.entries, row.entries, count); });
   // Diagonal entry of the regularized row. A torque bound measures against the direction in which
   // it acts; its entry is positive in both cases: softness is 1 / (h slope), and the joint has h
   // slope on the diagonal of the implicit mass matrix, so that measure * apply * diagonal >=
   // -softness.
-  row.scale = row.measure * row.apply * diagonal + row.softness;
+  row.scale = row.measure * row.apply * row.diagonal + row.softness;
   row.inverse = 1 / row.scale;
   row.gain = row.measure * row.inverse;
 }

@@ -72,6 +72,8 @@ struct JointRow {
   int chain = -1;
   int num_pairs = 0;
   const EntryPair* entries = nullptr;
+  /** J M^-1 J^T of the joint. */
+  double diagonal = 0;
   double apply = 1;
   double measure = 1;
   /** rad/s per N m s, and rad/s. */

@@ -38,7 +38,7 @@ void ContactAssembler::reserve(int max_contacts, int num_dofs, int max_chain) {
   contacts_.reserve(max_contacts);
   // A ball has 6 dofs; it may be alone in the world.
   const int most = num_pairs(std::max(max_chain, 6));
-  body_rows_.rows.resize(6 * most);
+  for (BodyRows& body : body_rows_) body.rows.resize(6 * most);
   surface_rows_.resize(3 * most);
   dofs_.reserve(4 * most);
   place_.assign(num_dofs, -1);
@@ -53,7 +53,7 @@ void ContactAssembler::clear() {
 void ContactAssembler::begin_step(int64_t step_number) {
   step_number_ = step_number;
   active_.clear();
-  body_rows_.robot = -1;
+  for (BodyRows& body : body_rows_) body.robot = -1;
 }
 
 // Coulomb's coefficient of a pair of surfaces. The ball is always surface a, and its coefficient
@@ -151,14 +151,21 @@ bool ContactAssembler::set_entries(const ActiveContact& contact, ContactBlock& b
 }
 
 ContactAssembler::BodyRows& ContactAssembler::rows_of_body(int robot, int body) {
-  // Contacts of a body follow each other.
-  if (body_rows_.robot != robot || body_rows_.body != body) {
-    body_rows_.robot = robot;
-    body_rows_.body = body;
-    body_rows_.chain = -1;
-    bodies_.robots[robot]->dynamics().calc_body_rows(body, body_rows_.rows.data());
+  const auto is_it = [&](const BodyRows& rows) { return rows.robot == robot && rows.body == body; };
+  // Contacts of a body with the floor follow each other.
+  if (is_it(body_rows_[last_used_])) return body_rows_[last_used_];
+  const auto known = std::find_if(body_rows_.begin(), body_rows_.end(), is_it);
+  if (known != body_rows_.end()) {
+    last_used_ = known - body_rows_.begin();
+    return *known;
   }
-  return body_rows_;
+  last_used_ = last_computed_ = (last_computed_ + 1) % body_rows_.size();
+  BodyRows& rows = body_rows_[last_used_];
+  rows.robot = robot;
+  rows.body = body;
+  rows.chain = -1;
+  bodies_.robots[robot]->dynamics().calc_body_rows(body, rows.rows.data());
+  return rows;
 }
 
 namespace {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -96,8 +97,12 @@ class ContactAssembler {
   std::vector<ActiveContact> active_;
   std::vector<Contact> contacts_;
   double elastic_energy_ = 0;
-  /** Rows of the body whose contact was assembled last. */
-  BodyRows body_rows_;
+  /** Rows of the bodies whose contacts were assembled last: a body often touches several others.
+   * Chosen: a lying robot's contacts have about that many bodies. */
+  std::array<BodyRows, 8> body_rows_;
+  /** Of them, the one that was used last, and the one that was computed last. */
+  size_t last_used_ = 0;
+  size_t last_computed_ = 0;
   /** Workspace for a contact of two bodies that move: their dofs, place of each dof among them, and
    * the rows of one body. */
   std::vector<int> dofs_;

@@ -23,15 +23,12 @@ constexpr double kMaxSweptRadius = 1.6;
  * distance is not measured. Chosen: far above rounding, so that no contact is missed. */
 constexpr double kApartMargin = 1e-6;
 
-/** Pairs of a robot's own parts up to which all are tested. Measured: with the NAO's and the T1's a
- * list of near ones costs more than it saves. */
-constexpr size_t kFewPairs = 1000;
-/** Distance of two parts' bounding spheres up to which their pair is listed as near, m. Chosen: a
- * list of a walking robot then holds for about ten steps. */
-constexpr double kNear = 0.05;
+/** Distance of two parts' bounding spheres up to which their pair is listed as near, m. Chosen:
+ * with 1 cm lists of a walking robot are made more often, with 5 cm they are longer. */
+constexpr double kNear = 0.02;
 /** Displacement of a part after which the list is made anew, m: two parts come nearer by twice
  * that, which is below kNear by far more than rounding. */
-constexpr double kMostMoved = 0.0249;
+constexpr double kMostMoved = 0.00995;
 
 /** Half the extent of a shape along a unit axis, m. */
 double half_extent(const RoundedBox& shape, const Vector3d& axis) {
@@ -44,6 +41,19 @@ void forget(Memories& memories) {
 }
 
 }  // namespace
+
+[[gnu::always_inline]] inline double ContactDetector::greatest_turn(const TreeDynamics& dynamics,
+                                                                    int body) const {
+  // The 1-norm needs no root.
+  return step_ * dynamics.angular_velocity(body).lpNorm<1>();
+}
+
+[[gnu::always_inline]] inline double ContactDetector::greatest_move(const TreeDynamics& dynamics,
+                                                                    int body, const Vector3d& point,
+                                                                    double radius) const {
+  return step_ * dynamics.velocity_at(body, point).lpNorm<1>() +
+         radius * greatest_turn(dynamics, body);
+}
 
 ContactDetector::ContactDetector(const SceneFile& scene, const MovingBodies& bodies,
                                  const Floor& floor, double step)
@@ -60,10 +70,11 @@ void ContactDetector::add_robot() {
   placed_.emplace_back(num_parts);
   RobotMemory memory;
   memory.floor.resize(model.points.size());
+  memory.floor_distance.resize(model.points.size());
+  memory.nearest_free.resize(num_parts);
   memory.self.resize(model.self_pairs.size());
   for (const auto& [a, b] : model.self_pairs) {
     const double reach = model.parts[a].bounding_radius + model.parts[b].bounding_radius + kMargin;
-    memory.near_pairs.push_back(memory.self_reach.size());
     memory.self_reach.push_back(reach);
   }
   memory.statics.resize(num_parts * statics_.size());
@@ -208,7 +219,7 @@ void ContactDetector::find(const Island& island, ContactCandidates& found) {
 }
 
 // Inlined, so that the vectors stay in registers.
-[[gnu::always_inline]] inline void ContactDetector::add(const Surface& a, int body_a,
+[[gnu::always_inline]] inline bool ContactDetector::add(const Surface& a, int body_a,
                                                         const Surface& b, int body_b,
                                                         const Proximity& proximity, int foot,
                                                         ContactMemory& memory,
@@ -220,13 +231,13 @@ void ContactDetector::find(const Island& island, ContactCandidates& found) {
   // impulse of the step may reverse it.
   // The distance is predicted to first order: d + h d'. Surfaces that may touch within the step
   // become constraints now, so that they cannot pass through each other before the next detection.
-  if (proximity.distance - step_ * std::max(approach_speed, 0.0) > kMargin) return;
+  if (proximity.distance - step_ * std::max(approach_speed, 0.0) > kMargin) return false;
   ContactCandidate* candidate = found.add();
   if (candidate == nullptr) {
     // It is marked, so that it is counted once in a step.
     memory = ContactMemory();
     memory.last_step = step_number_;
-    return;
+    return true;
   }
   candidate->a = a;
   candidate->b = b;
@@ -236,6 +247,7 @@ void ContactDetector::find(const Island& island, ContactCandidates& found) {
   candidate->proximity = proximity;
   candidate->approach_speed = approach_speed;
   candidate->memory = &memory;
+  return true;
 }
 
 // Distance of a sphere (a corner point with its radius) from the floor, and the point of contact in
@@ -258,22 +270,64 @@ void ContactDetector::find(const Island& island, ContactCandidates& found) {
   return proximity;
 }
 
+// On a level floor, a loop without branches over plain arrays: two points at a time.
+void ContactDetector::measure_floor_distances(int index, const CollisionModel::Part& part) {
+  const TreeDynamics& dynamics = bodies_.robots[index]->dynamics();
+  const CollisionModel& model = bodies_.robots[index]->collisions();
+  double* distance = robot_memory_[index].floor_distance.data();
+  if (!floor_.is_flat()) {
+    for (int i = part.first_point; i < part.end_point; ++i) {
+      const CollisionModel::Point& point = model.points[i];
+      const Vector3d center = dynamics.point_in_world(part.body, point.center_in_body);
+      distance[i] = to_floor(center, point.radius).distance;
+    }
+    return;
+  }
+  const double* x = model.point_x.data();
+  const double* y = model.point_y.data();
+  const double* z = model.point_z.data();
+  const double* radius = model.point_radius.data();
+  const Vector3d up = dynamics.rotation(part.body).row(2);
+  const double height = dynamics.position(part.body).z();
+  const double rx = up.x();
+  const double ry = up.y();
+  const double rz = up.z();
+  for (int i = part.first_point; i < part.end_point; ++i) {
+    // As point_in_world().
+    distance[i] = height + (rx * x[i] + ry * y[i] + rz * z[i]) - radius[i];
+  }
+}
+
 void ContactDetector::find_floor_contacts(int index, ContactCandidates& found) {
   const SimRobot& robot = *bodies_.robots[index];
   const CollisionModel& model = robot.collisions();
+  RobotMemory& memory = robot_memory_[index];
   for (size_t p = 0; p < model.parts.size(); ++p) {
     const CollisionModel::Part& part = model.parts[p];
+    const Vector3d& part_center = placed_[index][p].shape.center;
+    memory.nearest_free[p] = -std::numeric_limits<double>::infinity();
     // Bounding sphere over the highest bump: most parts of a standing robot end here.
-    const double height = placed_[index][p].shape.center.z() - floor_.max_height();
+    const double height = part_center.z() - floor_.max_height();
     if (height > part.bounding_radius + kReach) continue;
+    measure_floor_distances(index, part);
+    // The floor's point below a point of the part is at most kReach farther from its center.
+    const double reach = std::min(
+        kReach,
+        kMargin + kApartMargin +
+            greatest_move(robot.dynamics(), part.body, part_center, part.bounding_radius + kReach));
+    double nearest = std::numeric_limits<double>::infinity();
     for (int i = part.first_point; i < part.end_point; ++i) {
-      const CollisionModel::Point& point = model.points[i];
-      const Vector3d center = robot.dynamics().point_in_world(part.body, point.center_in_body);
-      const Proximity proximity = to_floor(center, point.radius);
-      if (proximity.distance > kReach) continue;
-      add({Surface::Kind::kRobot, index, part.link}, part.body, {}, -1, proximity, point.sole,
-          robot_memory_[index].floor[i], found);
+      if (memory.floor_distance[i] <= reach) {
+        const CollisionModel::Point& point = model.points[i];
+        const Vector3d center = robot.dynamics().point_in_world(part.body, point.center_in_body);
+        if (add({Surface::Kind::kRobot, index, part.link}, part.body, {}, -1,
+                to_floor(center, point.radius), point.sole, memory.floor[i], found)) {
+          continue;
+        }
+      }
+      nearest = std::min(nearest, memory.floor_distance[i]);
     }
+    memory.nearest_free[p] = nearest;
   }
 }
 
@@ -283,6 +337,7 @@ void ContactDetector::find_floor_contacts(int index, ContactCandidates& found) {
 bool ContactDetector::find_missed_floor_contacts(int index, ContactCandidates& found) {
   const SimRobot& robot = *bodies_.robots[index];
   const CollisionModel& model = robot.collisions();
+  RobotMemory& memories = robot_memory_[index];
   bool has_missed = false;
   for (size_t p = 0; p < model.parts.size(); ++p) {
     const CollisionModel::Part& part = model.parts[p];
@@ -291,14 +346,16 @@ bool ContactDetector::find_missed_floor_contacts(int index, ContactCandidates& f
     const double speed = robot.dynamics().velocity_at(part.body, part_center).z();
     const double height = part_center.z() - floor_.max_height();
     if (height + step_ * speed > part.bounding_radius * kMaxSweptRadius) continue;
-    // A point at a distance d moves at |v| + |w| (bounding radius + d) at most: above this d it
-    // cannot reach the floor within the step.
-    const double turn = step_ * robot.dynamics().angular_velocity(part.body).norm();
-    const double moved = step_ * robot.dynamics().velocity_at(part.body, part_center).norm();
-    const double safe_distance = turn < 1 ? (moved + turn * part.bounding_radius) / (1 - turn)
-                                          : std::numeric_limits<double>::infinity();
+    // A point at a distance d moves as one that is bounding radius + d away from the part's center:
+    // above this d it cannot reach the floor within the step.
+    const double turn = greatest_turn(robot.dynamics(), part.body);
+    const double moved =
+        greatest_move(robot.dynamics(), part.body, part_center, part.bounding_radius);
+    const double safe_distance =
+        turn < 1 ? moved / (1 - turn) : std::numeric_limits<double>::infinity();
+    if (memories.nearest_free[p] > safe_distance) continue;
     for (int i = part.first_point; i < part.end_point; ++i) {
-      ContactMemory& memory = robot_memory_[index].floor[i];
+      ContactMemory& memory = memories.floor[i];
       if (memory.last_step == step_number_) continue;  // A constraint of this step already.
       const CollisionModel::Point& point = model.points[i];
       const Vector3d center = robot.dynamics().point_in_world(part.body, point.center_in_body);
@@ -325,7 +382,6 @@ const std::vector<size_t>& ContactDetector::list_near_pairs(int index) {
   const Vector3d& root = bodies_.robots[index]->state().position;
   const std::vector<PlacedPart>& placed = placed_[index];
   RobotMemory& memory = robot_memory_[index];
-  if (model.self_pairs.size() <= kFewPairs) return memory.near_pairs;
   double moved = 0;  // m^2
   for (size_t i = 0; i < memory.listed_centers.size(); ++i) {
     moved =

@@ -68,6 +68,10 @@ class ContactDetector {
    * parts, each part with each static shape (static shape major), and each part with the ball. */
   struct RobotMemory {
     std::vector<ContactMemory> floor;
+    /** Distance of each point from the floor, m, of parts that are near it. */
+    std::vector<double> floor_distance;
+    /** Least of these, of each part's points that are no candidates. */
+    std::vector<double> nearest_free;
     std::vector<ContactMemory> self;
     /** Distance of the centers of each pair of its own parts beyond which the pair's bounding
      * spheres are apart, m. */
@@ -86,6 +90,11 @@ class ContactDetector {
     std::vector<ContactMemory> parts;
   };
 
+  /** Upper bounds of how far a body turns within the step, rad, and how far a point of it moves
+   * that is within a radius, m, of another one, in W. */
+  double greatest_turn(const TreeDynamics& dynamics, int body) const;
+  double greatest_move(const TreeDynamics& dynamics, int body, const Eigen::Vector3d& point,
+                       double radius) const;
   void place_parts(int robot);
   const RoundedBox& part_shape(int robot, int part);
   /** Pairs of a robot's own parts that may touch within the step: indices of self_pairs. */
@@ -96,12 +105,15 @@ class ContactDetector {
   /** Distance and normal between a sphere and the floor. @param center  In W, m. */
   Proximity to_floor(const Eigen::Vector3d& center, double radius) const;
   void find_floor_contacts(int robot, ContactCandidates& found);
+  /** Sets floor_distance of a part's points. */
+  void measure_floor_distances(int robot, const CollisionModel::Part& part);
   void find_self_contacts(int robot, ContactCandidates& found);
   void find_goal_contacts(int robot, ContactCandidates& found);
   void find_robot_contacts(PairMemory& pair, ContactCandidates& found);
   void find_ball_contacts(const Island& island, ContactCandidates& found);
-  /** Adds a candidate if the surfaces will be within the margin after the step. */
-  void add(const Surface& a, int body_a, const Surface& b, int body_b, const Proximity& proximity,
+  /** Adds a candidate if the surfaces will be within the margin after the step.
+   * @return Whether they will be. */
+  bool add(const Surface& a, int body_a, const Surface& b, int body_b, const Proximity& proximity,
            int foot, ContactMemory& memory, ContactCandidates& found) const;
   Eigen::Vector3d velocity_of(const Surface& surface, int body, const Eigen::Vector3d& point) const;
 

@@ -190,6 +190,7 @@ JointRow* JointDrives::begin_row(int dof, const TreeDynamics& dynamics, int firs
   row->chain = chain;
   row->num_pairs = num_pairs(static_cast<int>(tree_.dof_ancestors(dof).size()) + 1);
   row->entries = dynamics.inverse_row(dof);
+  row->diagonal = dynamics.inverse_square(dof);
   return row;
 }
 

@@ -125,6 +125,8 @@ class SimRobot {
   }
   /** See TreeIntegrator::take_impulses(). */
   Eigen::VectorXd take_impulses() { return integrator_.take_impulses(); }
+  /** See TreeIntegrator::calc_bias(). */
+  const Eigen::VectorXd& calc_bias() { return integrator_.calc_bias(); }
   /** Within a step: what forces are computed from. */
   void set_state(const TreeState& state) { integrator_.set_state(state); }
   void end_explicit_step(double h, const TreeState& state);

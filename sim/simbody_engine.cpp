@@ -15,8 +15,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-/** Longest step of the integrator, s. Measured: a standing robot with rotor inertia and explicit
- * contacts is stable at 0.5 ms. */
+/** Longest substep, s. Measured: a standing robot with rotor inertia and explicit contacts is
+ * stable at 0.5 ms. */
 constexpr double kMaxStep = 0.0005;
 /** Tolerance of the coupled joints, rad. Chosen: a tenth of an encoder's step. */
 constexpr double kConstraintTolerance = 1e-4;
@@ -42,32 +42,24 @@ class OwnersForce : public SimTK::Force::Custom::Implementation {
   Owner& owner_;
 };
 
-void integrate(const SimTK::MultibodySystem& system, SimTK::Integrator& integrator,
-               double duration) {
-  // Motor torques have changed since the last step's end although the state has not: Simbody's
-  // cached forces are invalid.
-  // The step begins with the accelerations of its first state, under the new forces.
-  SimTK::State& start = integrator.updAdvancedState();
-  start.invalidateAllCacheAtOrAbove(SimTK::Stage::Dynamics);
-  system.realize(start, SimTK::Stage::Acceleration);
-  const double end = integrator.getTime() + duration;
-  // The first call after a start returns at once.
-  while (integrator.getTime() < end - 1e-9) integrator.stepTo(end, end);
-}
-
 /** Substeps of at most kMaxStep into which a step is divided evenly. */
 int num_substeps(double step) {
   return static_cast<int>(std::ceil(step / kMaxStep - 1e-9));
 }
 
-std::unique_ptr<SimTK::Integrator> make_integrator(const SimTK::MultibodySystem& system,
-                                                   double step) {
-  auto integrator =
-      std::make_unique<SimTK::SemiExplicitEulerIntegrator>(system, step / num_substeps(step));
-  integrator->setConstraintTolerance(kConstraintTolerance);
-  // stepTo() then ends with a state of the integrator itself, from which the next step continues.
-  integrator->setAllowInterpolation(false);
-  return integrator;
+/** Semi-explicit Euler, a substep of h seconds: the accelerations give the velocities, and these
+ * the positions; then coupled joints are projected onto their constraints. What Simbody's
+ * SemiExplicitEulerIntegrator does, which realizes the state's position twice and its acceleration
+ * at the step's end too, where the next forces are not known yet. */
+void integrate(const SimTK::MultibodySystem& system, const SimTK::SimbodyMatterSubsystem& matter,
+               double h, SimTK::State& state) {
+  system.realize(state, SimTK::Stage::Acceleration);
+  // Of the poses at the substep's start.
+  SimTK::Vector q_dot;
+  state.updU() += h * state.getUDot();
+  matter.multiplyByN(state, false, state.getU(), q_dot);
+  state.updQ() += h * q_dot;
+  system.project(state, kConstraintTolerance);
 }
 
 }  // namespace
@@ -89,41 +81,38 @@ class SimbodyEngine::RobotSystem {
     SimTK::Force::Custom(forces_, new OwnersForce<RobotSystem>(*this));
     model_.system().realizeTopology();
     for (int body = 0; body < robot_.tree().num_bodies(); ++body) {
-      // First generalized speed of each body in Simbody's vector, which is not our order of dofs.
+      // First generalized speed and coordinate of each body in Simbody's vectors, which are not in
+      // our order of dofs.
       first_u_.push_back(model_.mobilized(body).getFirstUIndex(model_.default_state()));
+      first_q_.push_back(model_.mobilized(body).getFirstQIndex(model_.default_state()));
     }
-    dof_of_u_.resize(model_.matter().getNumMobilities());
-    for (int i = 0; i < 6; ++i) dof_of_u_[first_u_[0] + i] = {i, 1};
-    for (int body = 1; body < robot_.tree().num_bodies(); ++body) {
-      dof_of_u_[first_u_[body]] = {robot_.tree().bodies()[body].dof,
-                                   robot_.tree().bodies()[body].ratio};
-    }
+    wrenches_.resize(robot_.tree().num_bodies());
     start();
   }
 
   /** Takes over the robot's state. */
-  // This is also called after a jump: the integrator begins with the new state, without forces of
-  // the old one.
+  // This is also called after a jump.
   void start() {
-    SimTK::State state = model_.default_state();
-    model_.set_state(robot_.tree(), robot_.state(), state);
+    simbody_state_ = model_.default_state();
+    model_.set_state(robot_.tree(), robot_.state(), simbody_state_);
     // On a stand, the free joint of the root is locked.
-    if (robot_.options().is_on_stand) model_.mobilized(0).lock(state);
+    if (robot_.options().is_on_stand) model_.mobilized(0).lock(simbody_state_);
     state_ = robot_.state();
     motors_.clear();
     impulses_.setZero();
-    integrator_ = make_integrator(model_.system(), engine_.options_.step);
-    step_start_ = 0;
-    integrator_->initialize(state);
   }
 
   void step(double h) {
-    step_start_ = integrator_->getTime();
     motors_ = robot_.begin_explicit_step(h);
     impulses_ = robot_.take_impulses();
+    // Servo torques have changed although the state has not: forces in Simbody's cache are invalid.
+    simbody_state_.invalidateAllCacheAtOrAbove(SimTK::Stage::Dynamics);
+    const int count = num_substeps(h);
     try {
-      integrate(model_.system(), *integrator_, h);
-      read(integrator_->getState());
+      for (substep_ = 0; substep_ < count; ++substep_) {
+        integrate(model_.system(), model_.matter(), h / count, simbody_state_);
+      }
+      read(simbody_state_);
     } catch (const std::exception&) {
       // Simbody rejects a state that is not finite. The engine then reports such a state, and the
       // world resets the robot.
@@ -134,19 +123,28 @@ class SimbodyEngine::RobotSystem {
   /** Ends the step after contacts were collected. */
   void end_step(double h) { robot_.end_explicit_step(h, state_); }
 
-  // Called by Simbody for every state of the integrator, also within a step. Poses and velocities
-  // go through our own kinematics, so that contacts are found by the same code as in the fast
-  // engine.
+  // Called by Simbody at the start of every substep. Poses and velocities go through our own
+  // kinematics, so that contacts are found by the same code as in the fast engine.
   void calc_forces(const SimTK::State& state, SimTK::Vector_<SimTK::SpatialVec>& body_forces,
                    SimTK::Vector& mobility_forces) {
-    // The forces on the state at the step's end depend on the next targets: integrate() asks again.
-    if (state.getTime() > step_start_ + engine_.options_.step - kMaxStep / 2) return;
     read(state);
     robot_.set_state(state_);
-    add_weight(body_forces);
-    add_contacts(engine_.substep_at(state.getTime() - step_start_), body_forces);
-    add_motors(mobility_forces);
-    add_implicit_forces(state, body_forces, mobility_forces);
+    std::fill(wrenches_.begin(), wrenches_.end(), SpatialVector());
+    add_contacts();
+    add_motors();
+    add_implicit_forces();
+    for (int body = 0; body < robot_.tree().num_bodies(); ++body) {
+      const double mass = robot_.tree().bodies()[body].mass;
+      add_force(body, robot_.dynamics().body_center_of_mass(body), mass * engine_.options_.gravity);
+      // Moved from O to the body's origin.
+      const SpatialVector& force = wrenches_[body];
+      const Vector3d arm = robot_.dynamics().position(body) - robot_.dynamics().origin();
+      body_forces[model_.bodies()[body].mobilized] += SimTK::SpatialVec(
+          to_simbody(force.angular - arm.cross(force.linear)), to_simbody(force.linear));
+    }
+    for (int dof = 0; dof < robot_.tree().num_dofs(); ++dof) {
+      mobility_forces[u_of_dof(dof)] += torques_[dof];
+    }
   }
 
  private:
@@ -156,66 +154,55 @@ class SimbodyEngine::RobotSystem {
   }
 
   void read(const SimTK::State& state) {
-    const SimTK::Vector q = model_.mobilized(0).getQAsVector(state);
-    const SimTK::Vector u = model_.mobilized(0).getUAsVector(state);
+    const SimTK::Vector& q = state.getQ();
+    const SimTK::Vector& u = state.getU();
     if (!robot_.options().is_on_stand) {
-      state_.orientation = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized();
-      state_.position = {q[4], q[5], q[6]};
-      for (int i = 0; i < 6; ++i) state_.velocity[i] = u[i];
+      const int first = first_q_[0];
+      state_.orientation =
+          Eigen::Quaterniond(q[first], q[first + 1], q[first + 2], q[first + 3]).normalized();
+      state_.position = {q[first + 4], q[first + 5], q[first + 6]};
+      for (int i = 0; i < 6; ++i) state_.velocity[i] = u[first_u_[0] + i];
     }
     for (int dof = 6; dof < robot_.tree().num_dofs(); ++dof) {
       const int body = robot_.tree().body_of_dof(dof);
-      state_.coordinate[dof] = model_.mobilized(body).getOneQ(state, 0);
-      state_.velocity[dof] = model_.mobilized(body).getOneU(state, 0);
+      state_.coordinate[dof] = q[first_q_[body]];
+      state_.velocity[dof] = u[first_u_[body]];
     }
   }
 
-  // A force at a point as a spatial force at the body's origin: moment r x f, and f.
-  void add_force(int body, const Vector3d& point, const Vector3d& force,
-                 SimTK::Vector_<SimTK::SpatialVec>& body_forces) const {
-    const Vector3d moment = (point - robot_.dynamics().position(body)).cross(force);
-    body_forces[model_.bodies()[body].mobilized] +=
-        SimTK::SpatialVec(to_simbody(moment), to_simbody(force));
+  void add_force(int body, const Vector3d& point, const Vector3d& force) {
+    add_wrench(body, {(point - robot_.dynamics().origin()).cross(force), force});
+  }
+  void add_wrench(int body, const SpatialVector& force) {
+    wrenches_[body].angular += force.angular;
+    wrenches_[body].linear += force.linear;
   }
 
-  // Gravity is applied here instead of by Simbody's Force::Gravity, so that it is among the forces
-  // that add_implicit_forces() takes into account.
-  void add_weight(SimTK::Vector_<SimTK::SpatialVec>& body_forces) const {
-    for (int body = 0; body < robot_.tree().num_bodies(); ++body) {
-      add_force(body, robot_.dynamics().body_center_of_mass(body),
-                robot_.tree().bodies()[body].mass * engine_.options_.gravity, body_forces);
-    }
-  }
-
-  void add_contacts(int64_t substep, SimTK::Vector_<SimTK::SpatialVec>& body_forces) {
+  void add_contacts() {
     damping_.clear();
     // Contacts of all bodies are found, and those of this robot applied.
     for (const ContactCandidate& contact : engine_.find_candidates()) {
       const bool is_a = contact.a.kind == Surface::Kind::kRobot && contact.a.robot == index_;
       const bool is_b = contact.b.kind == Surface::Kind::kRobot && contact.b.robot == index_;
       if (!is_a && !is_b) continue;
-      const CompliantForce force = engine_.law_.force(contact, substep);
+      const CompliantForce force = engine_.law_.force(contact, engine_.number_of(substep_));
       const Vector3d& point = contact.proximity.point;
-      if (is_a) add_force(contact.body_a, point, force.on_a, body_forces);
-      if (is_b) add_force(contact.body_b, point, -force.on_a, body_forces);
+      if (is_a) add_force(contact.body_a, point, force.on_a);
+      if (is_b) add_force(contact.body_b, point, -force.on_a);
       if (force.damping.isZero(0)) continue;
       damping_.add(is_a ? contact.body_a : -1, is_b ? contact.body_b : -1, point, force.damping);
     }
   }
 
   // Pushes as forces over the step, then servo torque, viscous and dry friction, and stops.
-  void add_motors(SimTK::Vector& mobility_forces) const {
-    const double h = engine_.options_.step;
-    for (int dof = 0; dof < robot_.tree().num_dofs(); ++dof) {
-      mobility_forces[u_of_dof(dof)] += impulses_[dof] / h;
-    }
+  void add_motors() {
+    torques_ = impulses_ / engine_.options_.step;
     for (const JointForce& motor : motors_) {
       const double speed = state_.velocity[motor.dof];
       // Dry friction is smoothed below the speed that it would stop within a step.
       const double blur = std::max(0.01, kMaxStep * motor.dry_friction / motor_inertia(motor));
-      mobility_forces[u_of_dof(motor.dof)] += motor.torque - motor.viscous_friction * speed -
-                                              motor.dry_friction * std::tanh(speed / blur) +
-                                              stop_torque(motor);
+      torques_[motor.dof] += motor.torque - motor.viscous_friction * speed -
+                             motor.dry_friction * std::tanh(speed / blur) + stop_torque(motor);
     }
   }
 
@@ -240,45 +227,41 @@ class SimbodyEngine::RobotSystem {
    * (M + J + h sum(J_c^T D J_c)) u' = f, in the degrees of freedom of the tree, where coupled
    * joints are one. */
   // Simbody has neither armature nor implicit forces. Moving them to the right side needs u' first:
-  // solved with our own mass matrix, which is Simbody's to 1e-11 and takes a hundredth of the time.
-  void add_implicit_forces(const SimTK::State& state,
-                           SimTK::Vector_<SimTK::SpatialVec>& body_forces,
-                           SimTK::Vector& mobility_forces) {
-    const SimTK::SimbodyMatterSubsystem& matter = model_.matter();
-    const int num_u = matter.getNumMobilities();
-    SimTK::Vector residual;
-    const SimTK::Vector no_acceleration(num_u, 0.0);
-    // Residual force at zero acceleration: C(q, u) - f, so that f - C is its negative.
-    matter.calcResidualForceIgnoringConstraints(state, mobility_forces, body_forces,
-                                                no_acceleration, residual);
+  // solved with our own mass matrix and bias forces, which are Simbody's to 1e-11 and take a
+  // hundredth of the time.
+  void add_implicit_forces() {
     const Tree& tree = robot_.tree();
-    const int first = robot_.options().is_on_stand ? 6 : 0;
-    // Coupled joints: Simbody's velocities are u = T v, therefore T^T M T v' = T^T (f - C). A row
-    // of T has one entry: the dof of the joint, with its ratio. Our M is T^T M T.
-    reduced_force_.setZero(tree.num_dofs());
-    for (int k = 0; k < num_u; ++k) {
-      const DofOfU& column = dof_of_u_[k];
-      reduced_force_[column.dof] -= column.ratio * residual[k];
+    const TreeDynamics& dynamics = robot_.dynamics();
+    // The bodies' forces pass through the joints towards the root.
+    acceleration_ = torques_ - robot_.calc_bias();
+    carried_ = wrenches_;
+    for (int body = tree.num_bodies() - 1; body > 0; --body) {
+      const SpatialVector& force = carried_[body];
+      const SpatialVector motion = dynamics.motion(body);
+      acceleration_[tree.bodies()[body].dof] +=
+          motion.angular.dot(force.angular) + motion.linear.dot(force.linear);
+      SpatialVector& above = carried_[tree.bodies()[body].parent];
+      above.angular += force.angular;
+      above.linear += force.linear;
     }
-    robot_.dynamics().copy_mass_matrix(reduced_mass_);
-    for (const JointForce& motor : motors_) reduced_mass_(motor.dof, motor.dof) += motor.inertia;
+    acceleration_.head<3>() += carried_[0].angular;
+    acceleration_.segment<3>(3) += carried_[0].linear;
+    dynamics.copy_mass_matrix(mass_);
+    for (const JointForce& motor : motors_) mass_(motor.dof, motor.dof) += motor.inertia;
     const double h = engine_.options_.step / num_substeps(engine_.options_.step);
-    damping_.add_to_mass(h, reduced_mass_);
+    damping_.add_to_mass(h, mass_);
     // On a stand the root's six are not solved for.
+    const int first = robot_.options().is_on_stand ? 6 : 0;
     const long count = tree.num_dofs() - first;
-    solve_positive_definite(reduced_mass_.bottomRightCorner(count, count),
-                            reduced_force_.tail(count));
-    reduced_force_.head(first).setZero();
-    const Eigen::VectorXd& acceleration = reduced_force_;
+    solve_positive_definite(mass_.bottomRightCorner(count, count), acceleration_.tail(count));
+    acceleration_.head(first).setZero();
     for (const JointForce& motor : motors_) {
       // The reaction of each rotor, in place of an armature in M.
-      mobility_forces[u_of_dof(motor.dof)] -= motor.inertia * acceleration[motor.dof];
+      torques_[motor.dof] -= motor.inertia * acceleration_[motor.dof];
     }
-    for (const ContactDamping::Contact& contact : damping_.contacts()) {
-      const Vector3d force = ContactDamping::force_on_a(contact, h, acceleration);
-      if (contact.body_a >= 0) add_force(contact.body_a, contact.point, force, body_forces);
-      if (contact.body_b >= 0) add_force(contact.body_b, contact.point, -force, body_forces);
-    }
+    damping_.for_each_force(h, acceleration_, [this](int body, const SpatialVector& force) {
+      add_wrench(body, force);
+    });
   }
 
   SimbodyEngine& engine_;
@@ -286,23 +269,23 @@ class SimbodyEngine::RobotSystem {
   SimRobot& robot_;
   SimbodyModel model_;
   SimTK::GeneralForceSubsystem forces_;
-  std::unique_ptr<SimTK::Integrator> integrator_;
-  /** The integrator's time at the start of the step, s. */
-  double step_start_ = 0;
+  SimTK::State simbody_state_;
+  /** Number of the substep within the step. */
+  int substep_ = 0;
   std::vector<int> first_u_;
-  /** Our dof for each of Simbody's generalized speeds, which is `ratio` times the dof's speed. */
-  struct DofOfU {
-    int dof = 0;
-    double ratio = 1;
-  };
-  std::vector<DofOfU> dof_of_u_;
+  std::vector<int> first_q_;
   ContactDamping damping_;
-  Eigen::MatrixXd reduced_mass_;
-  Eigen::VectorXd reduced_force_;
   /** As computed last. */
   TreeState state_;
   std::vector<JointForce> motors_;
   Eigen::VectorXd impulses_;
+  /** Forces on the joints, (num_dofs), and on the bodies, about O. */
+  Eigen::VectorXd torques_;
+  std::vector<SpatialVector> wrenches_;
+  // Workspace of add_implicit_forces().
+  std::vector<SpatialVector> carried_;
+  Eigen::MatrixXd mass_;
+  Eigen::VectorXd acceleration_;
 };
 
 /** The ball as a Simbody system. */
@@ -322,28 +305,29 @@ class SimbodyEngine::BallSystem {
   }
 
   void start() {
-    SimTK::State state = system_.getDefaultState();
+    state_ = system_.getDefaultState();
     const BallState& from = ball_.state();
     const Eigen::Quaterniond& r = from.orientation;
     const double q[] = {
         r.w(), r.x(), r.y(), r.z(), from.position.x(), from.position.y(), from.position.z()};
-    for (int i = 0; i < 7; ++i) body_.setOneQ(state, i, q[i]);
+    for (int i = 0; i < 7; ++i) body_.setOneQ(state_, i, q[i]);
     // Free's speeds: angular in W, then linear in W.
     for (int i = 0; i < 3; ++i) {
-      body_.setOneU(state, i, from.angular_velocity[i]);
-      body_.setOneU(state, 3 + i, from.velocity[i]);
+      body_.setOneU(state_, i, from.angular_velocity[i]);
+      body_.setOneU(state_, 3 + i, from.velocity[i]);
     }
     impulse_.setZero();
-    integrator_ = make_integrator(system_, engine_.options_.step);
-    step_start_ = 0;
-    integrator_->initialize(state);
   }
 
   void step(double h) {
-    step_start_ = integrator_->getTime();
     impulse_ = ball_.take_impulse();
-    integrate(system_, *integrator_, h);
-    read(integrator_->getState());
+    // What presses on it, and a push, may have changed although the ball's state has not.
+    state_.invalidateAllCacheAtOrAbove(SimTK::Stage::Dynamics);
+    const int count = num_substeps(h);
+    for (substep_ = 0; substep_ < count; ++substep_) {
+      integrate(system_, matter_, h / count, state_);
+    }
+    read(state_);
   }
 
   void calc_forces(const SimTK::State& state, SimTK::Vector_<SimTK::SpatialVec>& body_forces,
@@ -353,10 +337,9 @@ class SimbodyEngine::BallSystem {
     Vector3d force =
         ball_.description().mass * engine_.options_.gravity + impulse_ / engine_.options_.step;
     Vector3d moment = Vector3d::Zero();
-    const int64_t substep = engine_.substep_at(state.getTime() - step_start_);
     for (const ContactCandidate& contact : engine_.find_candidates()) {
       if (contact.a.kind != Surface::Kind::kBall) continue;
-      const Vector3d pressing = engine_.law_.force(contact, substep).on_a;
+      const Vector3d pressing = engine_.law_.force(contact, engine_.number_of(substep_)).on_a;
       force += pressing;
       moment += (contact.proximity.point - now.position).cross(pressing);
       if (contact.b.kind != Surface::Kind::kFloor) continue;
@@ -390,9 +373,9 @@ class SimbodyEngine::BallSystem {
   SimTK::SimbodyMatterSubsystem matter_;
   SimTK::GeneralForceSubsystem forces_;
   SimTK::MobilizedBody body_;
-  std::unique_ptr<SimTK::Integrator> integrator_;
-  /** The integrator's time at the start of the step, s. */
-  double step_start_ = 0;
+  SimTK::State state_;
+  /** Number of the substep within the step. */
+  int substep_ = 0;
   Vector3d impulse_ = Vector3d::Zero();
 };
 
@@ -454,15 +437,14 @@ const std::vector<ContactCandidate>& SimbodyEngine::find_candidates() {
   return candidates_.list();
 }
 
-int64_t SimbodyEngine::substep_at(double time) const {
-  const int count = num_substeps(options_.step);
-  return num_steps_ * count + std::lround(time / options_.step * count);
+int64_t SimbodyEngine::number_of(int substep) const {
+  return num_steps_ * num_substeps(options_.step) + substep;
 }
 
 void SimbodyEngine::collect_contacts() {
   contacts_.clear();
   for (const ContactCandidate& contact : find_candidates()) {
-    const Vector3d force = law_.force(contact, substep_at(0)).on_a;
+    const Vector3d force = law_.force(contact, number_of(0)).on_a;
     if (force.isZero(0)) continue;
     const Vector3d& point = contact.proximity.point;
     contacts_.push_back({contact.a, contact.b, point, force});

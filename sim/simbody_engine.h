@@ -9,8 +9,8 @@
 
 namespace nao::sim {
 
-/** Simbody's multibody dynamics, constraint solver and integrator (semi-explicit Euler at a fixed
- * step), with compliant contacts (CompliantContact), for comparisons.
+/** Simbody's multibody dynamics and constraint solver in semi-explicit Euler substeps, with
+ * compliant contacts (CompliantContact), for comparisons.
  *
  * The rotors' reflected inertia, which Simbody's joints do not have, is exact: the acceleration
  * that M + J gives, with Simbody's mass matrix M, is computed first, and the rotors' torques -J u'
@@ -40,8 +40,8 @@ class SimbodyEngine : public Engine {
   /** Finds the contact candidates of all bodies in their current state. */
   const std::vector<ContactCandidate>& find_candidates();
   void collect_contacts();
-  /** Number of the integrator's substep at a time since the start of the step, s. */
-  int64_t substep_at(double time) const;
+  /** Number of a substep of this step since the start. */
+  int64_t number_of(int substep) const;
 
   const WorldOptions& options_;
   MovingBodies& bodies_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 
 #include "sim/products.h"
 
@@ -41,6 +42,26 @@ SpatialVector motion_of(const SpatialInertia& body, const SpatialVector& momentu
   return motion;
 }
 
+/** All dofs but the root's: in turn one of each limb, from its last to its first. A row waits for
+ * those of its descendants, and so the processor has others to work on. */
+std::vector<int> make_elimination_order(const Tree& tree) {
+  // A limb's dofs share its first one, which is the first ancestor behind the root's six.
+  std::map<int, std::vector<int>> limbs;
+  for (int dof = 6; dof < tree.num_dofs(); ++dof) {
+    const std::vector<int>& above = tree.dof_ancestors(dof);
+    limbs[above.size() > 6 ? above[6] : dof].push_back(dof);
+  }
+  std::vector<int> order;
+  while (static_cast<int>(order.size()) < tree.num_dofs() - 6) {
+    for (auto& [first, dofs] : limbs) {
+      if (dofs.empty()) continue;
+      order.push_back(dofs.back());
+      dofs.pop_back();
+    }
+  }
+  return order;
+}
+
 }  // namespace
 
 TreeDynamics::TreeDynamics(const Tree& tree, bool is_root_fixed, const TreeKernels& kernels)
@@ -49,6 +70,7 @@ TreeDynamics::TreeDynamics(const Tree& tree, bool is_root_fixed, const TreeKerne
       num_dofs_(tree.num_dofs()),
       kernels_(kernels),
       constants_(tree.num_bodies()),
+      elimination_order_(make_elimination_order(tree)),
       bodies_(tree.num_bodies()) {
   size_t depth = 0;
   for (int dof = 0; dof < num_dofs_; ++dof) {
@@ -59,6 +81,7 @@ TreeDynamics::TreeDynamics(const Tree& tree, bool is_root_fixed, const TreeKerne
   for (std::vector<EntryPair>* rows : {&mass_, &factor_, &inverse_}) {
     rows->assign(static_cast<size_t>(num_dofs_) * pairs_of_row_, EntryPair::Zero());
   }
+  inverse_squares_.assign(num_dofs_, 0);
   const int row_length = 2 * pairs_of_row_;
   matrix_rows_.resize(num_dofs_);
   ancestor_rows_.reserve(num_dofs_ * depth);
@@ -185,25 +208,6 @@ SpatialVector TreeDynamics::momentum() const {
 
 SpatialVector TreeDynamics::rigid_motion(const SpatialVector& momentum) const {
   return motion_of(bodies_[0].composite, momentum);
-}
-
-// The root's rows of M u: the root's generalized momentum is that of the whole tree about O.
-SpatialVector TreeDynamics::momentum_at(const Eigen::VectorXd& velocity) const {
-  std::array<double, 6> sum{};
-  const double* u = velocity.data();
-  for (int i = 0; i < 6; ++i) {
-    const double* row = row_of(mass_, i);
-    for (int j = 0; j < i; ++j) {
-      sum[i] += row[j] * u[j];
-      sum[j] += row[j] * u[i];
-    }
-    sum[i] += row[i] * u[i];
-  }
-  for (int dof = 6; dof < num_dofs_; ++dof) {
-    const double* row = row_of(mass_, dof);
-    for (int i = 0; i < 6; ++i) sum[i] += row[i] * u[dof];
-  }
-  return {{sum[0], sum[1], sum[2]}, {sum[3], sum[4], sum[5]}};
 }
 
 // Adds one rigid motion to the velocities of all bodies, so that joint rates stay: the motion that

@@ -78,6 +78,8 @@ class TreeDynamics {
   const EntryPair* inverse_row(int dof) const {
     return &inverse_[static_cast<size_t>(dof) * pairs_of_row_];
   }
+  /** Its squared length: the diagonal entry of (M + diagonal)^-1. */
+  double inverse_square(int dof) const { return inverse_squares_[dof]; }
   /** L^-T J^T, where J maps the generalized velocity to a body's spatial velocity about O: six rows
    * (angular x, y, z, linear x, y, z), one after the other, with entries for the body's chain.
    * After factorize(). */
@@ -164,12 +166,15 @@ class TreeDynamics {
   std::vector<MatrixRow> matrix_rows_;
   /** The lists of matrix_rows_, one after the other. */
   std::vector<int> ancestor_rows_;
+  /** Joints' dofs in the order in which factorize() eliminates them. */
+  std::vector<int> elimination_order_;
   std::vector<BodyState> bodies_;
   /** Lower triangles of M, L and L^-1, row by row, without the entries outside the tree's pattern:
    * a row has entries for the dof's ancestors, rising, and for the dof itself. */
   std::vector<EntryPair> mass_;
   std::vector<EntryPair> factor_;
   std::vector<EntryPair> inverse_;
+  std::vector<double> inverse_squares_;
 };
 
 }  // namespace nao::sim

@@ -38,6 +38,12 @@ class TreeIntegrator {
   /** Generalized impulses of the pushes since the last step, N m s and N s, (num_dofs), for other
    * engines; they are removed. */
   Eigen::VectorXd take_impulses();
+  /** Bias forces of the state, with gravity, for other engines: see TreeDynamics::calc_bias().
+   * Valid until the next call. */
+  const Eigen::VectorXd& calc_bias() {
+    dynamics_.calc_bias(gravity_, bias_);
+    return bias_;
+  }
   /** Takes over a state that another engine has computed, with its mass matrix. */
   void set_state(const TreeState& state);
 

@@ -78,6 +78,13 @@ inline Quad operator-(const Quad& a, const Quad& b) {
 inline Quad operator*(const Quad& a, double s) {
   return {a.low * s, a.high * s};
 }
+inline Quad operator*(const Quad& a, const Quad& b) {
+  return {a.low * b.low, a.high * b.high};
+}
+inline double sum_of(const Quad& quad) {
+  const Pair pair = quad.low + quad.high;
+  return pair[0] + pair[1];
+}
 
 #include "sim/tree_kernels.inl"
 

@@ -113,9 +113,11 @@ struct TreeKernels {
   void (*calc_bias)(const BodyConstants* bodies, int count, const double* gravity,
                     BodyState* states, double* bias);
   /** L of M + diagonal = L^T L, and L^-1: see TreeDynamics::factorize().
-   * @param factor  M, becomes L. */
-  void (*factorize)(const MatrixRow* rows, int num_dofs, const double* diagonal, double* factor,
-                    double* inverse);
+   * @param order  Of the joints' dofs: those that share an ancestor among them fall.
+   * @param factor  M, becomes L. @param squares  Receives the squared lengths of the rows of L^-1.
+   */
+  void (*factorize)(const MatrixRow* rows, const int* order, int num_dofs, const double* diagonal,
+                    double* factor, double* inverse, double* squares);
   /** Rows of a body: see TreeDynamics::calc_body_rows(). @param inverse  L^-1, with 0 behind the
    * diagonal. @param row_length  Of the result's rows, a multiple of 2. */
   void (*calc_body_rows)(const BodyConstants* bodies, const BodyState* states,

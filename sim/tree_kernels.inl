@@ -221,18 +221,19 @@ void calc_bias(const BodyConstants* bodies, int count, const double* gravity, Bo
 /** Most quads of a row whose depth is a constant of factorize(). */
 constexpr int kMostQuads = 3;
 
+/** Scales the row of L of a dof, and subtracts its outer product from its ancestors' rows from the
+ * one at place `first_ancestor` on. */
 template <class Depth>
-[[gnu::always_inline]] inline void eliminate(const MatrixRow& row, Depth depth, double diagonal,
-                                             double* factor, double* inverse) {
+[[gnu::always_inline]] inline void eliminate(const MatrixRow& row, Depth depth, int first_ancestor,
+                                             double diagonal, double* factor, double* inverse) {
   double* entries = factor + row.first;
   const double root = __builtin_sqrt(entries[depth] + diagonal);
   const double scale = 1 / root;
   if constexpr (std::is_same_v<Depth, int>) {
     for (int i = 0; i < depth; ++i) entries[i] *= scale;
     entries[depth] = 0;
-    // Schur complement: subtracts the outer product of the row from the ancestors' block. What this
-    // adds behind the diagonal of an ancestor's row is never read.
-    for (int a = 0; a < depth; ++a) {
+    // Schur complement. What this adds behind the diagonal of an ancestor's row is never read.
+    for (int a = first_ancestor; a < depth; ++a) {
       double* target = factor + row.ancestors[a];
       for (int i = 0; i <= a; ++i) target[i] -= entries[a] * entries[i];
     }
@@ -243,7 +244,7 @@ template <class Depth>
       quads[q] = load_quad(entries + 4 * q) * scale;
       store_quad(quads[q], entries + 4 * q);
     }
-    for (int a = 0; a < depth; ++a) {
+    for (int a = first_ancestor; a < depth; ++a) {
       double* target = factor + row.ancestors[a];
       for (int q = 0; q <= a / 4; ++q) {
         store_quad(load_quad(target + 4 * q) - quads[q] * entries[a], target + 4 * q);
@@ -252,6 +253,33 @@ template <class Depth>
   }
   entries[depth] = root;
   inverse[row.first + depth] = scale;
+}
+
+/** Dofs of the root, the first ones. */
+constexpr int kRootDofs = 6;
+
+/** Subtracts the outer products of the joints' rows from the root's, which stay in registers. */
+inline void eliminate_from_root(const MatrixRow* rows, int num_dofs, double* factor) {
+  // Entries 0 to 3 of each row, and 4 and 5 of the last two.
+  Quad low[kRootDofs];
+  Quad high[kRootDofs];
+  for (int a = 0; a < kRootDofs; ++a) {
+    low[a] = load_quad(factor + rows[a].first);
+    high[a] = load_quad(factor + rows[a].first + 4);
+  }
+  for (int k = num_dofs - 1; k >= kRootDofs; --k) {
+    const double* entries = factor + rows[k].first;
+    const Quad first = load_quad(entries);
+    const Quad second = load_quad(entries + 4);
+    for (int a = 0; a < kRootDofs; ++a) {
+      low[a] = low[a] - first * entries[a];
+      if (a >= 4) high[a] = high[a] - second * entries[a];
+    }
+  }
+  for (int a = 0; a < kRootDofs; ++a) {
+    store_quad(low[a], factor + rows[a].first);
+    if (a >= 4) store_quad(high[a], factor + rows[a].first + 4);
+  }
 }
 
 template <class Depth>
@@ -279,23 +307,36 @@ template <class Depth>
   result[depth] = scale;
 }
 
-void factorize(const MatrixRow* rows, int num_dofs, const double* diagonal, double* factor,
-               double* inverse) {
+void factorize(const MatrixRow* rows, const int* order, int num_dofs, const double* diagonal,
+               double* factor, double* inverse, double* squares) {
   // L^T L of a tree (Featherstone, table 6.3): eliminates the leaves first, so that no fill-in
-  // occurs. Row k of L is sqrt on the diagonal and M(k, j) / sqrt for its ancestors j. From the
-  // last dof to the first, each row changes those of its ancestors only, whose rows are as long as
-  // their places in the row: the entries of one are for the same dofs as the first ones of the
-  // other.
-  for (int k = num_dofs - 1; k >= 0; --k) {
+  // occurs. Row k of L is sqrt on the diagonal and M(k, j) / sqrt for its ancestors j. Each row
+  // changes those of its ancestors only, whose rows are as long as their places in the row: the
+  // entries of one are for the same dofs as the first ones of the other. The root's rows, which all
+  // change, come when all others are done.
+  for (int i = 0; i < num_dofs - kRootDofs; ++i) {
+    const int k = order[i];
     with_constant<6, 11>(rows[k].depth, [&](auto depth) {
-      eliminate(rows[k], depth, diagonal[k], factor, inverse);
+      eliminate(rows[k], depth, kRootDofs, diagonal[k], factor, inverse);
     });
+  }
+  eliminate_from_root(rows, num_dofs, factor);
+  for (int k = kRootDofs - 1; k >= 0; --k) {
+    eliminate(rows[k], rows[k].depth, 0, diagonal[k], factor, inverse);
   }
   // L L^-1 = 1, row by row: L_dd (L^-1)_d = e_d - sum of L_da (L^-1)_a over the ancestors a of d,
   // whose rows are beginnings of the row of d, as their ancestors are the first ones of d's.
   for (int k = 0; k < num_dofs; ++k) {
-    with_constant<6, 11>(rows[k].depth,
+    with_constant<1, 11>(rows[k].depth,
                          [&](auto depth) { invert(rows[k], depth, factor, inverse); });
+  }
+  for (int k = 0; k < num_dofs; ++k) {
+    const double* row = inverse + rows[k].first;
+    Quad sum = load_quad(row) * load_quad(row);
+    for (int i = 4; i <= rows[k].depth; i += 4) {
+      sum = sum + load_quad(row + i) * load_quad(row + i);
+    }
+    squares[k] = sum_of(sum);
   }
 }
 

@@ -88,6 +88,13 @@ inline Quad operator-(const Quad& a, const Quad& b) {
 inline Quad operator*(const Quad& a, double s) {
   return {_mm256_mul_pd(a.v, _mm256_set1_pd(s))};
 }
+inline Quad operator*(const Quad& a, const Quad& b) {
+  return {_mm256_mul_pd(a.v, b.v)};
+}
+inline double sum_of(const Quad& quad) {
+  const __m128d pair = _mm_add_pd(_mm256_castpd256_pd128(quad.v), _mm256_extractf128_pd(quad.v, 1));
+  return _mm_cvtsd_f64(_mm_add_sd(pair, _mm_unpackhi_pd(pair, pair)));
+}
 
 #include "sim/tree_kernels.inl"
 

@@ -244,7 +244,11 @@ void TreeDynamicsTest::expect_rows_of_the_inverse_factor() {
   for (int dof = 0; dof < tree_.num_dofs(); ++dof) {
     std::vector<int> dofs = tree_.dof_ancestors(dof);
     dofs.push_back(dof);
-    expect_row(dynamics_.inverse_row(dof), dofs, Eigen::VectorXd::Unit(tree_.num_dofs(), dof));
+    Eigen::VectorXd unit = Eigen::VectorXd::Unit(tree_.num_dofs(), dof);
+    expect_row(dynamics_.inverse_row(dof), dofs, unit);
+    dynamics_.solve_upper(unit);
+    dynamics_.solve_lower(unit);
+    EXPECT_NEAR(dynamics_.inverse_square(dof), unit[dof], 1e-10 * unit[dof]);
   }
   for (int body = 0; body < tree_.num_bodies(); ++body) {
     const std::vector<int>& chain = tree_.bodies()[body].chain;
@@ -292,6 +296,7 @@ TEST_F(TreeDynamicsTest, HasTheSameBitsWithAndWithoutAvx2) {
       for (int dof = 0; dof < n; ++dof) {
         const double* row = dynamics.inverse_row(dof)->data();
         result.insert(result.end(), row, row + tree_.dof_ancestors(dof).size() + 1);
+        result.push_back(dynamics.inverse_square(dof));
       }
       for (int body = 0; body < tree_.num_bodies(); ++body) {
         add(dynamics.rotation(body));

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""nao-trial refuses wrong arguments: which option, what is wrong with it, exit status 1 or 2, no trial begun."""
+"""nao-trial refuses wrong arguments: which option, what is wrong with it, exit status 1 or 2, no trial begun.
+Seeds that run at the same time give the results of seeds one after the other."""
 
 import unittest
 
@@ -21,6 +22,16 @@ class Usage(unittest.TestCase):
     def test_seeds(self):
         for seeds in ("x", "3-1", "1-", "-1-2"):
             self.assert_refused(["sprint", "--seeds", seeds], "seeds")
+
+    def test_jobs(self):
+        for jobs in ("0", "65", "x"):
+            self.assert_refused(["sprint", "--jobs", jobs, "--seeds", "1"], "--jobs")
+        self.assert_refused(["walk", "--jobs", "2", "--trace", "walk.csv", "--seeds", "1-2"], "--trace")
+        trial = [BIN_DIR / "nao-trial", "walk", "--vx", "0.2", "--duration", "2", "--seeds", "1-5"]
+        alone = run([*trial, "--jobs", "1"])
+        self.assertEqual(alone.returncode, 0, alone.stderr)
+        self.assertIn("5 of 5", alone.stdout)
+        self.assertEqual(alone.stdout, run([*trial, "--jobs", "3"]).stdout)
 
     def test_names(self):
         self.assert_refused(["sprint", "--engine", "bullet", "--seeds", "1"], "bullet")

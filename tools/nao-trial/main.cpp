@@ -1,8 +1,12 @@
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <cstdio>
+#include <future>
 #include <memory>
+#include <mutex>
 #include <string>
+#include <vector>
 
 #include "common/command_line.h"
 #include "common/error.h"
@@ -40,23 +44,45 @@ void print(const RunResult& run, uint64_t seed) {
   std::fflush(stdout);
 }
 
+std::vector<RunResult> run_seed(const Scenario& scenario, const ScenarioOptions& options,
+                                uint64_t seed) {
+  ScenarioOptions robot = options;
+  // Each robot is calibrated under its own disturbances before its run.
+  if (options.num_calibration_directions > 0) {
+    robot.trial.motion.calibration =
+        calibrate(options.trial, seed, options.num_calibration_directions);
+  }
+  return scenario.run(robot, seed);
+}
+
+/** @param num_jobs  Number of seeds that run at the same time, which changes no result. */
 Summary run_all(const Scenario& scenario, const ScenarioOptions& options,
-                const std::vector<uint64_t>& seeds, bool is_verbose) {
+                const std::vector<uint64_t>& seeds, int num_jobs, bool is_verbose) {
+  std::vector<std::vector<RunResult>> runs(seeds.size());
+  std::atomic<size_t> next{0};
+  std::mutex printing;
+  const auto work = [&] {
+    for (size_t i = next++; i < seeds.size(); i = next++) {
+      runs[i] = run_seed(scenario, options, seeds[i]);
+      if (!is_verbose) continue;
+      const std::lock_guard lock(printing);
+      for (const RunResult& run : runs[i]) print(run, seeds[i]);
+    }
+  };
+  std::vector<std::future<void>> others;
+  for (int job = 1; job < num_jobs; ++job) {
+    others.push_back(std::async(std::launch::async, work));
+  }
+  work();
+  for (std::future<void>& other : others) other.get();
   Summary summary;
   summary.scenario = scenario.name;
   summary.units = scenario.units;
-  for (uint64_t seed : seeds) {
-    ScenarioOptions robot = options;
-    // Each robot is calibrated under its own disturbances before its run.
-    if (options.num_calibration_directions > 0) {
-      robot.trial.motion.calibration =
-          calibrate(options.trial, seed, options.num_calibration_directions);
-    }
-    for (RunResult& run : scenario.run(robot, seed)) {
-      if (is_verbose) print(run, seed);
+  for (size_t i = 0; i < seeds.size(); ++i) {
+    for (RunResult& run : runs[i]) {
       summary.runs.push_back(std::move(run));
       // One entry for each run: a scenario may have several for a seed.
-      summary.seeds.push_back(seed);
+      summary.seeds.push_back(seeds[i]);
     }
   }
   return summary;
@@ -88,6 +114,7 @@ int main(int argc, char** argv) {
   std::string plot_file;
   std::string model_name = "nao";
   bool is_verbose = false;
+  int num_jobs = 1;
   std::string teams = "2v2";
   std::string disturbances = "default";
   ScenarioOptions options;
@@ -99,6 +126,8 @@ int main(int argc, char** argv) {
   for (const Scenario& scenario : all) {
     nao::CommandLine* command = app.add_subcommand(scenario.name, scenario.summary);
     command->add_option("--seeds", seeds, "First and last seed, one run each");
+    command->add_option("--jobs", num_jobs, "Seeds that run at the same time, each in a thread")
+        ->range(1, 64);
     command->add_option("--json", json_file, "Write the summary to this file too");
     command->add_option("--plot", plot_file, "Draw the results to this SVG file (push-course)");
     nao::add_model_option(*command, model_name);
@@ -147,7 +176,10 @@ int main(int argc, char** argv) {
     options.trial.scene = nao::SceneFile::find(scenario.scene);
     options.team_sizes = parse_teams(teams);
     options.is_for_plot = !plot_file.empty();
-    Summary summary = run_all(scenario, options, parse_seeds(seeds), is_verbose);
+    if (num_jobs > 1 && !options.trace_file.empty()) {
+      throw nao::ConfigError("--trace writes the last seed's run: use it with --jobs 1");
+    }
+    Summary summary = run_all(scenario, options, parse_seeds(seeds), num_jobs, is_verbose);
     summary.engine = options.trial.engine;
     summary.disturbances = disturbances;
     summary.model = model_name;
