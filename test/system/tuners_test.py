@@ -9,17 +9,13 @@ import subprocess
 import tempfile
 import unittest
 
+from open_mpi import MPI_ENVIRONMENT
 from stack import BIN_DIR
 
 # A search of two generations; every candidate gets up twice.
 GET_UP = ["nao-transition-tuner", "--sequence", "get-up-belly", "--start", "belly", "--population", "4",
           "--generations", "2", "--trials", "1", "--disturbances", "default,real"]
 WALK = ["nao-walk-tuner", "--population", "4", "--generations", "1", "--courses", "1"]
-# Open MPI on this host alone: no remote shell, no network, more processes than cores; also for root.
-MPI_ENVIRONMENT = {
-    "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_plm": "isolated",
-    "OMPI_MCA_btl": "self,vader", "OMPI_MCA_oob_tcp_if_include": "lo", "OMPI_MCA_rmaps_base_oversubscribe": "1",
-    "OMPI_MCA_hwloc_base_binding_policy": "none", "OMPI_MCA_btl_vader_single_copy_mechanism": "none"}
 
 
 def has_open_mpi():

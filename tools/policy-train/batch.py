@@ -1,5 +1,7 @@
 """Many simulated robots that are stepped together, for the training of a policy: nao-batch-simulation, whose arrays are NumPy's.
 
+VectorEnvironment is the same by the interface of https://gymnasium.farama.org.
+
     with Batch(model="t1", policy="policy.yaml", size=256) as batch:
         batch.reset()
         batch.actions[:] = 0
@@ -19,6 +21,36 @@ from typing import Any, Mapping
 
 import numpy as np
 
+try:
+    from gymnasium.spaces import Box
+    from gymnasium.vector import AutoresetMode, VectorEnv
+
+    SAME_STEP = AutoresetMode.SAME_STEP
+except ImportError:
+    VectorEnv, SAME_STEP = object, "SameStep"
+
+    class Box:  # type: ignore[no-redef]
+        """Arrays of one shape and type with bounds: what is needed here of gymnasium.spaces.Box."""
+
+        def __init__(self, low: float, high: float, shape: tuple[int, ...], dtype: Any) -> None:
+            self.low, self.high = np.full(shape, low, dtype), np.full(shape, high, dtype)
+            self.shape, self.dtype = shape, np.dtype(dtype)
+            self.seed(None)
+
+        def seed(self, seed: int | None) -> None:
+            self._random = np.random.default_rng(seed)
+
+        def sample(self) -> Any:
+            """@return uniform numbers; normal ones without bounds."""
+            if np.isfinite(self.high).all():
+                return self._random.uniform(self.low, self.high).astype(self.dtype)
+            return self._random.standard_normal(self.shape).astype(self.dtype)
+
+        def contains(self, value: Any) -> bool:
+            """@return whether an array has the shape, a type that fits, and is within the bounds."""
+            fits = isinstance(value, np.ndarray) and value.shape == self.shape and np.can_cast(value.dtype, self.dtype)
+            return fits and bool(((self.low <= value) & (value <= self.high)).all())
+
 PROGRAM = Path(os.environ.get("NAO_BIN_DIR") or Path(__file__).resolve().parents[2] / "build/dev/bin") / "nao-batch-simulation"
 
 
@@ -26,11 +58,13 @@ class Batch:
     """The arrays are shared with the program: a step changes them, they are not copied.
 
     actions (size, num_actions), observations (size, num_observations), privileged (size, 9), reward_terms (size, num_terms):
-    float32; terminated and truncated (size, 1): uint8. Where an episode has ended, the observation is the next one's first.
+    float32; terminated and truncated (size, 1): uint8. Where an episode has ended, the observation is the next one's first, and
+    that of the end is in final_observations (size, num_observations).
     """
 
     actions: Any
     observations: Any
+    final_observations: Any
     privileged: Any
     reward_terms: Any
     terminated: Any
@@ -55,6 +89,8 @@ class Batch:
             setattr(self, name, np.ndarray(array["shape"], array["type"], memory, array["offset"]))
         self.size = size
         self.period: float = description["period"]
+        # Greatest output; without one infinity.
+        self.action_clip: float = description["action_clip"] or np.inf
         self.term_names: list[str] = description["reward_terms"]
         self.reflections: dict[str, dict[str, list[float]]] = description["reflections"]
 
@@ -74,9 +110,9 @@ class Batch:
             pass  # The next line says so.
         self._read()
 
-    def reset(self) -> None:
-        """Begins an episode of every robot."""
-        self._request("reset")
+    def reset(self, seed: int | None = None) -> None:
+        """Begins an episode of every robot. @param seed  Other robots: those of a batch made with this seed."""
+        self._request("reset" if seed is None else f"reset {seed}")
 
     def step(self) -> None:
         """Moves every robot by its row of `actions` for one period of the policy."""
@@ -100,3 +136,63 @@ class Batch:
 
     def __exit__(self, *_: Any) -> None:
         self.close()
+
+
+class VectorEnvironment(VectorEnv):  # type: ignore[misc]
+    """The robots of a Batch as a gymnasium.vector.VectorEnv, with or without Gymnasium.
+
+        envs = VectorEnvironment({"velocity_tracking": 1.0}, model="t1", policy="policy.yaml", size=256)
+        observations, infos = envs.reset(seed=1)
+        observations, rewards, terminations, truncations, infos = envs.step(envs.action_space.sample())
+
+    What reset and step return is shared with the program: the next step changes it. An episode that ends is followed by the next
+    one in the same step; infos has `final_obs`, the observations of the end, and `_final_obs`, where one ended.
+    """
+
+    metadata = {"autoreset_mode": SAME_STEP, "render_modes": []}
+    render_mode = None
+    spec = None
+    closed = False
+
+    def __init__(self, weights: Mapping[str, float], **options: Any) -> None:
+        """@param weights  Of the reward's terms, for a second. @param options  Of Batch.
+        @throws RuntimeError, ValueError  as Batch and Batch.weights() do."""
+        self.batch = Batch(**options)
+        try:
+            self._weights = self.batch.weights(weights) * self.batch.period
+        except ValueError:
+            self.batch.close()
+            raise
+        self.num_envs, num_observations = self.batch.observations.shape
+        num_actions = self.batch.actions.shape[1]
+        clip = self.batch.action_clip
+        self.single_observation_space = Box(-np.inf, np.inf, (num_observations,), np.float32)
+        self.observation_space = Box(-np.inf, np.inf, (self.num_envs, num_observations), np.float32)
+        self.single_action_space = Box(-clip, clip, (num_actions,), np.float32)
+        self.action_space = Box(-clip, clip, (self.num_envs, num_actions), np.float32)
+        self._terminations = self.batch.terminated[:, 0].view(np.bool_)
+        self._truncations = self.batch.truncated[:, 0].view(np.bool_)
+
+    def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Any, dict[str, Any]]:
+        """Begins an episode of every robot. @param seed  Draws other robots; robot i has seed + i. @param options  None or empty.
+        @throws ValueError  for any option."""
+        if options:
+            raise ValueError(f"unknown options {sorted(options)}: there are none")
+        self.batch.reset(seed)
+        return self.batch.observations, {}
+
+    def step(self, actions: Any) -> tuple[Any, Any, Any, Any, dict[str, Any]]:
+        """@param actions  (num_envs, num_actions); batch.actions itself is not copied."""
+        if actions is not self.batch.actions:
+            self.batch.actions[:] = actions
+        self.batch.step()
+        rewards = self.batch.reward_terms @ self._weights
+        ended = self._terminations | self._truncations
+        infos = {"final_obs": self.batch.final_observations, "_final_obs": ended} if ended.any() else {}
+        return self.batch.observations, rewards, self._terminations, self._truncations, infos
+
+    def close(self, **_: Any) -> None:
+        """Ends the program."""
+        if not self.closed:
+            self.closed = True
+            self.batch.close()

@@ -15,6 +15,7 @@ size_t count_of(int rows, int columns) {
 BatchRows::BatchRows(const PolicyManifest& manifest, int size)
     : actions(count_of(size, manifest.num_actions())),
       observations(count_of(size, manifest.num_observations())),
+      final_observations(observations.size()),
       privileged(count_of(size, kNumPrivileged)),
       terms(count_of(size, kNumRewardTerms)),
       terminated(count_of(size, 1)),
@@ -22,18 +23,21 @@ BatchRows::BatchRows(const PolicyManifest& manifest, int size)
 
 BatchSimulation::BatchSimulation(const EnvironmentOptions& options, int size, int num_threads,
                                  uint64_t seed)
-    : num_observations_(options.manifest->num_observations()),
-      num_actions_(options.manifest->num_actions()),
-      num_threads_(num_threads) {
-  for (int i = 0; i < size; ++i) {
-    environments_.push_back(
-        std::make_unique<PolicyEnvironment>(options, seed + static_cast<uint64_t>(i)));
+    : options_(options), num_threads_(num_threads), environments_(static_cast<size_t>(size)) {
+  this->seed(seed);
+}
+
+void BatchSimulation::seed(uint64_t seed) {
+  for (auto& environment : environments_) {
+    environment = std::make_unique<PolicyEnvironment>(options_, seed++);
   }
 }
 
 StepOutput BatchSimulation::output_of(const BatchArrays& arrays, int i) const {
   StepOutput output;
-  output.observation = arrays.observations + i * num_observations_;
+  const int num_observations = options_.manifest->num_observations();
+  output.observation = arrays.observations + i * num_observations;
+  output.final_observation = arrays.final_observations + i * num_observations;
   output.privileged = arrays.privileged + i * kNumPrivileged;
   output.reward_terms = arrays.reward_terms + i * kNumRewardTerms;
   output.terminated = arrays.terminated + i;
@@ -59,8 +63,8 @@ void BatchSimulation::reset(const BatchArrays& arrays) {
 
 void BatchSimulation::step(const BatchArrays& arrays) {
   for_each([&](int i) {
-    environments_[static_cast<size_t>(i)]->step(arrays.actions + i * num_actions_,
-                                                output_of(arrays, i));
+    environments_[static_cast<size_t>(i)]->step(
+        arrays.actions + i * options_.manifest->num_actions(), output_of(arrays, i));
   });
 }
 

@@ -13,6 +13,7 @@ struct BatchArrays {
   /** (size x num_actions). */
   const float* actions = nullptr;
   float* observations = nullptr;
+  float* final_observations = nullptr;
   float* privileged = nullptr;
   float* reward_terms = nullptr;
   uint8_t* terminated = nullptr;
@@ -25,12 +26,13 @@ class BatchRows {
   BatchRows(const PolicyManifest& manifest, int size);
 
   BatchArrays arrays() {
-    return {actions.data(), observations.data(), privileged.data(),
+    return {actions.data(), observations.data(), final_observations.data(), privileged.data(),
             terms.data(),   terminated.data(),   truncated.data()};
   }
 
   std::vector<float> actions;
   std::vector<float> observations;
+  std::vector<float> final_observations;
   std::vector<float> privileged;
   std::vector<float> terms;
   std::vector<uint8_t> terminated;
@@ -45,6 +47,8 @@ class BatchSimulation {
    * @throws ConfigError, ModelError  as PolicyEnvironment does. */
   BatchSimulation(const EnvironmentOptions& options, int size, int num_threads, uint64_t seed);
 
+  /** Other robots: their draws and episodes are those of a batch made with this seed. */
+  void seed(uint64_t seed);
   int size() const { return static_cast<int>(environments_.size()); }
   /** Begins an episode in each environment; writes observations and privileged. */
   void reset(const BatchArrays& arrays);
@@ -57,8 +61,7 @@ class BatchSimulation {
   void for_each(Work work);
   StepOutput output_of(const BatchArrays& arrays, int i) const;
 
-  int num_observations_;
-  int num_actions_;
+  EnvironmentOptions options_;
   int num_threads_;
   std::vector<std::unique_ptr<PolicyEnvironment>> environments_;
 };

@@ -9,6 +9,7 @@
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 #include <thread>
 
@@ -78,6 +79,8 @@ void serve(const EnvironmentOptions& options, int size, int num_threads, uint64_
   const size_t actions = layout.add("actions", "float32", 4, size, manifest.num_actions());
   const size_t observations =
       layout.add("observations", "float32", 4, size, manifest.num_observations());
+  const size_t final_observations =
+      layout.add("final_observations", "float32", 4, size, manifest.num_observations());
   const size_t privileged = layout.add("privileged", "float32", 4, size, kNumPrivileged);
   const size_t terms = layout.add("reward_terms", "float32", 4, size, kNumRewardTerms);
   const size_t terminated = layout.add("terminated", "uint8", 1, size, 1);
@@ -86,6 +89,7 @@ void serve(const EnvironmentOptions& options, int size, int num_threads, uint64_
   BatchArrays arrays;
   arrays.actions = memory.at<float>(actions);
   arrays.observations = memory.at<float>(observations);
+  arrays.final_observations = memory.at<float>(final_observations);
   arrays.privileged = memory.at<float>(privileged);
   arrays.reward_terms = memory.at<float>(terms);
   arrays.terminated = memory.at<uint8_t>(terminated);
@@ -95,18 +99,23 @@ void serve(const EnvironmentOptions& options, int size, int num_threads, uint64_
       {"arrays", layout.arrays},
       {"reward_terms", reward_term_names()},
       {"period", manifest.period},
+      {"action_clip", manifest.action_clip},
       {"reflections",
        {{"observations", to_json(reflect_observation(*options.model, manifest))},
         {"actions", to_json(reflect_action(*options.model, manifest))},
         {"privileged", to_json(reflect_privileged())}}}};
   std::cout << description.dump() << std::endl;
-  for (std::string request; std::getline(std::cin, request);) {
-    if (request == "reset") {
-      batch.reset(arrays);
-    } else if (request == "step") {
+  for (std::string line; std::getline(std::cin, line);) {
+    std::istringstream words(line);
+    std::string request;
+    words >> request;
+    if (line == "step") {
       batch.step(arrays);
+    } else if (request == "reset" && (line == request || words >> seed)) {
+      if (line != request) batch.seed(seed);
+      batch.reset(arrays);
     } else {
-      throw ConfigError("unknown request \"" + request + "\" on stdin: reset or step");
+      throw ConfigError("unknown request \"" + line + "\" on stdin: reset, reset SEED or step");
     }
     std::cout << "done" << std::endl;
   }
@@ -119,8 +128,8 @@ int main(int argc, char** argv) {
   using namespace nao::policy_train;
   nao::CommandLine app(
       "Steps many robots together for a policy that is being trained. Prints a line of JSON that "
-      "describes the arrays in FILE, then answers each line on stdin, `reset` or `step`, with "
-      "`done`.",
+      "describes the arrays in FILE, then answers each line on stdin, `reset`, `reset SEED` or "
+      "`step`, with `done`.",
       "nao-batch-simulation");
   nao::CommonOptions common;
   common.log_level = "warning";

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "policy/command_ramp.h"
 #include "sim/disturbance_draw.h"
 #include "sim/lying_start.h"
 
@@ -73,7 +74,8 @@ void PolicyEnvironment::reset(const StepOutput& output) {
   }
   builder_.reset();
   num_steps_ = 0;
-  draw_command();
+  input_.command = options_.command.value_or(Eigen::Vector3d::Zero());
+  draw_goal();
   sample(before_);
   observe(output);
 }
@@ -126,12 +128,15 @@ void PolicyEnvironment::step(const float* action, const StepOutput& output) {
                     builder_.phase(), fallen, output.reward_terms);
   *output.terminated = fallen ? 1 : 0;
   *output.truncated = !fallen && num_steps_ >= max_steps_ ? 1 : 0;
+  std::swap(before_, after_);
   if (*output.terminated != 0 || *output.truncated != 0) {
+    observe(output);
+    std::copy_n(output.observation, manifest.num_observations(), output.final_observation);
     reset(output);
     return;
   }
-  if (random_.uniform() < manifest.period / options_.command_time) draw_command();
-  std::swap(before_, after_);
+  if (random_.uniform() < manifest.period / options_.command_time) draw_goal();
+  input_.command = ramp_command(input_.command, goal_, manifest.period);
   observe(output);
 }
 
@@ -146,22 +151,22 @@ void PolicyEnvironment::set_targets() {
   }
 }
 
-void PolicyEnvironment::draw_command() {
+void PolicyEnvironment::draw_goal() {
   const PolicyManifest& manifest = *options_.manifest;
   if (options_.command || manifest.kind != PolicyManifest::Kind::kWalk) {
-    input_.command = options_.command.value_or(Eigen::Vector3d::Zero());
+    goal_ = input_.command;
     return;
   }
-  input_.command = {random_.uniform(manifest.vx.lower, manifest.vx.upper),
-                    random_.uniform(manifest.vy.lower, manifest.vy.upper),
-                    random_.uniform(manifest.wz.lower, manifest.wz.upper)};
+  goal_ = {random_.uniform(manifest.vx.lower, manifest.vx.upper),
+           random_.uniform(manifest.vy.lower, manifest.vy.upper),
+           random_.uniform(manifest.wz.lower, manifest.wz.upper)};
   const double kind = random_.uniform();
   const auto single = static_cast<long>(random_.uniform(0, 3));
   if (kind < kRestShare) {
-    input_.command.setZero();
+    goal_.setZero();
   } else if (kind < kRestShare + kSingleShare) {
     for (long i = 0; i < 3; ++i) {
-      if (i != single) input_.command[i] = 0;
+      if (i != single) goal_[i] = 0;
     }
   }
 }

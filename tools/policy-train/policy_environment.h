@@ -33,7 +33,7 @@ struct EnvironmentOptions {
   double push = 0;
   /** Greatest difference of each moved joint from its default angle at the start, rad. Chosen. */
   double start_spread = 0.05;
-  /** m/s, m/s, rad/s; nothing: drawn from the manifest's ranges. */
+  /** m/s, m/s, rad/s; nothing: drawn from the manifest's ranges and reached as in nao-motion. */
   std::optional<Eigen::Vector3d> command;
 };
 
@@ -46,6 +46,8 @@ inline constexpr int kNumPrivileged = 9;
 struct StepOutput {
   /** (manifest.num_observations()), (kNumPrivileged), (kNumRewardTerms). */
   float* observation = nullptr;
+  /** (manifest.num_observations()), of the episode's end, where one ended in this step. */
+  float* final_observation = nullptr;
   float* privileged = nullptr;
   float* reward_terms = nullptr;
   /** 1 if the episode ended in this step: the robot fell; or its time was over. The observation is
@@ -72,7 +74,7 @@ class PolicyEnvironment {
   void place();
   void lay_down();
   void set_targets();
-  void draw_command();
+  void draw_goal();
   void maybe_push();
   void observe(const StepOutput& output);
   void sample(MotionSample& sample) const;
@@ -82,6 +84,8 @@ class PolicyEnvironment {
   std::unique_ptr<sim::World> world_;
   ObservationBuilder builder_;
   PolicyInput input_;
+  /** What the commanded velocity changes to. */
+  Eigen::Vector3d goal_ = Eigen::Vector3d::Zero();
   std::vector<float> action_;
   sim::MotorTargets targets_;
   /** At the default angles; present from the end of the constructor on. */

@@ -129,13 +129,11 @@ class Symmetric(nn.Module):
 class Trainer:
     """One training: networks, optimizer, and the batch of robots."""
 
-    def __init__(self, folder: Path, model: str, settings: dict[str, Any], weights: dict[str, float], seed: int,
-                 threads: int) -> None:
+    def __init__(self, batch: Batch, settings: dict[str, Any], weights: np.ndarray, seed: int) -> None:
+        """@param batch, weights  As open_batch() gives them."""
         torch.manual_seed(seed)
-        self.settings = settings
-        self.batch = Batch(policy=folder / "policy.yaml", model=model, size=settings["size"], seed=1000 * seed, threads=threads,
-                           disturbances=settings["disturbances"], push=settings["push"], episode=settings["episode"])
-        self.weights = self.batch.weights(weights) * self.batch.period
+        self.settings, self.batch = settings, batch
+        self.weights = weights * batch.period
         num_observations = self.batch.observations.shape[1]
         num_actions = self.batch.actions.shape[1]
         reflections = self.batch.reflections
@@ -292,6 +290,26 @@ def read_settings(folder: Path) -> tuple[dict[str, Any], dict[str, float]]:
     return {**DEFAULTS, **changes}, weights
 
 
+def open_batch(folder: Path, model: str, settings: dict[str, Any], weights: dict[str, float], seed: int,
+               threads: int) -> tuple[Batch, np.ndarray]:
+    """Under mpirun it returns in the first process only; the others simulate until that one ends.
+    @return the robots and the weights of their reward's terms, for a second.
+    @throws RuntimeError, ValueError  as Batch and Batch.weights() do."""
+    options = {name: settings[name] for name in ("size", "disturbances", "push", "episode")}
+    options |= {"policy": folder / "policy.yaml", "model": model, "seed": 1000 * seed, "threads": threads}
+    if int(os.environ.get("OMPI_COMM_WORLD_SIZE", "1")) == 1:
+        batch = Batch(**options)
+        return batch, batch.weights(weights)
+    from distributed_batch import DistributedBatch
+
+    distributed = DistributedBatch(**options)
+    row = distributed.weights(weights)
+    if not distributed.is_first:
+        distributed.serve()
+        sys.exit()
+    return distributed, row
+
+
 def train(trainer: Trainer, folder: Path, options: argparse.Namespace) -> None:
     """Iterates until the time is over, or Ctrl-C, and writes what the folder receives."""
     begin = last = time.monotonic()
@@ -334,13 +352,14 @@ def main() -> None:
         sys.exit(f"{options.folder / CHECKPOINT} is missing: there is no training to go on with")
     torch.set_num_threads(1)
     try:
-        trainer = Trainer(options.folder, options.model, settings, weights, options.seed, options.threads)
+        batch, row = open_batch(options.folder, options.model, settings, weights, options.seed, options.threads)
     except (RuntimeError, ValueError) as error:
         sys.exit(str(error))
-    if options.resume:
-        trainer.load(options.folder / CHECKPOINT)
-    train(trainer, options.folder, options)
-    trainer.batch.close()
+    with batch:
+        trainer = Trainer(batch, settings, row, options.seed)
+        if options.resume:
+            trainer.load(options.folder / CHECKPOINT)
+        train(trainer, options.folder, options)
 
 
 if __name__ == "__main__":

@@ -9,6 +9,7 @@
 #include "daemons/motion/guards/joint_limits.h"
 #include "daemons/motion/standing_rates.h"
 #include "kinematics/pose2.h"
+#include "policy/command_ramp.h"
 
 namespace nao::motion {
 namespace {
@@ -20,9 +21,6 @@ constexpr double kDefaultAnglesTime = 0.3;
 // Time in which the targets change from those before to the policy's, s. Chosen: the first outputs
 // of a policy may jump, since its last action is 0.
 constexpr double kBlendTime = 0.1;
-// Greatest change of the commanded velocity, m/s^2 and rad/s^2. Chosen: policies are trained with
-// jumps; less is gentler.
-const Eigen::Vector3d kAcceleration(1, 1, 2);
 // Duration of the return to the stand, s, at least.
 constexpr double kReturnTime = 0.3;
 // A walk ends when the robot has been commanded to stand for the first time, s, and both feet carry
@@ -189,8 +187,7 @@ void PolicyMotion::steer(const MotionContext& context) {
   const bool is_silent = age_ > kCommandLifetime;
   if (is_silent || is_finishing_) goal.setZero();
   reason_ = is_silent ? Reason("walk-command-timeout", {to_argument(kCommandLifetime)}) : Reason();
-  const Eigen::Vector3d change = kAcceleration * context.dt;
-  velocity_ += (goal - velocity_).cwiseMax(-change).cwiseMin(change);
+  velocity_ = ramp_command(velocity_, goal, context.dt);
 }
 
 bool PolicyMotion::is_over(const MotionContext& context) {

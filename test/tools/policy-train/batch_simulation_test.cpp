@@ -80,9 +80,44 @@ TEST(BatchSimulation, EndsAnEpisodeWithAFallAndBeginsTheNext) {
   ASSERT_EQ(rows.terminated[0], 1);
   EXPECT_GT(k, 10);
   EXPECT_EQ(rows.terms[static_cast<size_t>(RewardTerm::kFallen)], 1);
-  // The observation is the next episode's first: upright.
+  // The observation is the next episode's first: upright. That of the end: tipped over.
   EXPECT_NEAR(rows.observations[5], -1, 0.01);
   EXPECT_NEAR(rows.privileged[6], 0, 0.02);
+  EXPECT_GT(rows.final_observations[5], -0.7F);
+}
+
+TEST(BatchSimulation, HasTheRobotsOfASeed) {
+  const EnvironmentOptions options = disturbed_options();
+  BatchSimulation batch(options, 2, 1, 1);
+  BatchSimulation other(options, 2, 1, 9);
+  BatchRows rows(*options.manifest, 2), other_rows(*options.manifest, 2);
+  batch.reset(rows.arrays());
+  other.reset(other_rows.arrays());
+  EXPECT_NE(rows.observations, other_rows.observations);
+  batch.seed(9);
+  batch.reset(rows.arrays());
+  EXPECT_EQ(rows.observations, other_rows.observations);
+}
+
+TEST(BatchSimulation, ChangesTheCommandedVelocityAsWhereThePolicyRuns) {
+  EnvironmentOptions options = options_of(kLegs);
+  options.command_time = 0.5;
+  BatchSimulation batch(options, 1, 1, 3);
+  BatchRows rows(*options.manifest, 1);
+  batch.reset(rows.arrays());
+  const auto command = [&] { return Eigen::Map<const Eigen::Vector3f>(&rows.observations[6]); };
+  EXPECT_TRUE(command().isZero(0));
+  double greatest = 0;
+  for (int k = 0; k < 100; ++k) {
+    const Eigen::Vector3f before = command();
+    batch.step(rows.arrays());
+    if (rows.terminated[0] != 0) continue;
+    const Eigen::Vector3f change = command() - before;
+    EXPECT_LT(std::abs(change.x()), 1.01F * 0.02F) << k;
+    EXPECT_LT(std::abs(change.z()), 2.01F * 0.02F) << k;
+    greatest = std::max(greatest, std::abs(static_cast<double>(command().x())));
+  }
+  EXPECT_GT(greatest, 0.1);
 }
 
 TEST(BatchSimulation, LaysARobotDownThatIsToGetUp) {

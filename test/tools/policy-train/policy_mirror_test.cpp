@@ -62,8 +62,9 @@ TEST(PolicyMirror, IsThatOfTheSimulatedRobot) {
     options.start_spread = 0;
     PolicyEnvironment environment(options, 1);
     BatchRows rows(*options.manifest, 1);
-    const StepOutput output{rows.observations.data(), rows.privileged.data(), rows.terms.data(),
-                            rows.terminated.data(), rows.truncated.data()};
+    const StepOutput output{rows.observations.data(), rows.final_observations.data(),
+                            rows.privileged.data(),   rows.terms.data(),
+                            rows.terminated.data(),   rows.truncated.data()};
     environment.reset(output);
     for (int k = 0; k < 25; ++k) {
       const float bend = 0.04F * static_cast<float>(k);

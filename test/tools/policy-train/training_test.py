@@ -3,20 +3,30 @@
 from __future__ import annotations
 
 import contextlib
+import enum
+import importlib
+import importlib.util
 import io
 import json
+import os
+import shutil
 import subprocess
 import sys
 import tempfile
+import types
 import unittest
+import unittest.mock
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 ROOT = Path(__file__).resolve().parents[3]
 sys.path.insert(0, str(ROOT / "tools/policy-train"))
+sys.path.insert(0, str(ROOT / "test/support"))
 
 import batch  # noqa: E402
+from open_mpi import MPI_ENVIRONMENT  # noqa: E402
 
 POLICY = ROOT / "data/robots/t1/policies/trained-walk/policy.yaml"
 
@@ -53,6 +63,85 @@ class BatchTest(unittest.TestCase):
         self.assertIn('unknown request "jump"', run.stderr)
 
 
+def stand_in_gymnasium() -> dict[str, types.ModuleType]:
+    """@return Modules with the names of Gymnasium 1.1 that batch.py imports."""
+
+    class VectorEnv:
+        def step(self, actions: Any) -> Any:
+            raise NotImplementedError
+
+    modes = enum.Enum("AutoresetMode", {"NEXT_STEP": "NextStep", "SAME_STEP": "SameStep", "DISABLED": "Disabled"})
+    modules = {name: types.ModuleType(name) for name in ("gymnasium", "gymnasium.spaces", "gymnasium.vector")}
+    modules["gymnasium.spaces"].Box = batch.Box  # type: ignore[attr-defined]
+    modules["gymnasium.vector"].VectorEnv = VectorEnv  # type: ignore[attr-defined]
+    modules["gymnasium.vector"].AutoresetMode = modes  # type: ignore[attr-defined]
+    return modules
+
+
+class VectorEnvironmentTest(unittest.TestCase):
+    OPTIONS: dict[str, Any] = {"policy": POLICY, "size": 3, "model": "t1", "seed": 5, "threads": 1, "episode": 1.0}
+
+    def check(self, envs: Any, observations: Any, ended: bool | None = None) -> None:
+        """What https://gymnasium.farama.org/api/vector/ says of observations and of a step."""
+        self.assertTrue(envs.observation_space.contains(observations))
+        self.assertEqual(envs.observation_space.shape, (envs.num_envs, *envs.single_observation_space.shape))
+        self.assertEqual(envs.action_space.shape, (envs.num_envs, *envs.single_action_space.shape))
+        if ended is None:
+            return
+        actions = envs.action_space.sample()
+        self.assertTrue(envs.action_space.contains(actions))
+        observations, rewards, terminations, truncations, infos = envs.step(0.1 * actions)  # No robot falls.
+        self.check(envs, observations)
+        np.testing.assert_allclose(rewards, [2 * envs.batch.period] * 3)
+        for array in (rewards, terminations, truncations):
+            self.assertEqual(array.shape, (3,))
+        self.assertEqual((terminations.dtype, truncations.dtype), (np.bool_, np.bool_))
+        self.assertEqual((terminations | truncations).tolist(), [ended] * 3)
+        self.assertEqual("final_obs" in infos, ended)
+
+    def test_robots_step_as_gymnasium_says(self) -> None:
+        envs = batch.VectorEnvironment({"alive": 2.0}, **self.OPTIONS)
+        self.addCleanup(envs.close)
+        self.assertEqual(envs.metadata["autoreset_mode"], batch.SAME_STEP)
+        first, infos = envs.reset(seed=7)
+        self.assertEqual(infos, {})
+        start = first.copy()
+        for _ in range(49):
+            self.check(envs, first, ended=False)
+        before = first.copy()
+        observations, _, _, truncations, infos = envs.step(envs.action_space.sample() * 0)
+        self.assertTrue(truncations.all() and infos["_final_obs"].all())
+        # The end of one episode is near the step before; the next one begins at the default angles, without a last action.
+        np.testing.assert_allclose(infos["final_obs"][:, :3], before[:, :3], atol=0.1)
+        self.assertFalse(observations[:, -14:-2].any())
+        np.testing.assert_array_equal(envs.reset(seed=7)[0], start)
+        self.assertFalse(np.array_equal(envs.reset(seed=8)[0], start))
+        with self.assertRaisesRegex(ValueError, "unknown options.*speed"):
+            envs.reset(options={"speed": 1})
+        envs.close()
+        envs.close()
+
+    def test_arrays_are_not_copied(self) -> None:
+        with contextlib.closing(batch.VectorEnvironment({}, **self.OPTIONS)) as envs:
+            observations, _ = envs.reset()
+            self.assertIs(observations, envs.batch.observations)
+            self.assertIs(envs.step(envs.batch.actions)[0], observations)
+            self.assertTrue(np.shares_memory(envs.step(envs.batch.actions)[2], envs.batch.terminated))
+
+    def test_it_is_a_vector_env_where_gymnasium_is(self) -> None:
+        with unittest.mock.patch.dict(sys.modules, stand_in_gymnasium()):
+            with_gymnasium = importlib.reload(batch)
+            self.addCleanup(importlib.reload, batch)
+            self.assertTrue(issubclass(batch.VectorEnvironment, sys.modules["gymnasium.vector"].VectorEnv))
+            self.assertEqual(batch.VectorEnvironment.metadata["autoreset_mode"].name, "SAME_STEP")
+            with contextlib.closing(with_gymnasium.VectorEnvironment({"alive": 2.0}, **self.OPTIONS)) as envs:
+                self.check(envs, envs.reset()[0], ended=False)
+
+    def test_an_unknown_term_is_an_error(self) -> None:
+        with self.assertRaisesRegex(ValueError, "unknown reward terms"):
+            batch.VectorEnvironment({"speed": 1.0}, **self.OPTIONS)
+
+
 @unittest.skipIf(torch is None, "python3-torch is not installed")
 class TrainingTest(unittest.TestCase):
     def train(self, folder: Path, *arguments: str) -> list[dict[str, float]]:
@@ -75,6 +164,17 @@ class TrainingTest(unittest.TestCase):
         self.assertEqual(networks[0], networks[1])
         self.assertNotEqual(networks[0], networks[2])
 
+    @unittest.skipUnless(shutil.which("mpirun") and importlib.util.find_spec("mpi4py"), "openmpi-bin or python3-mpi4py is missing")
+    def test_processes_of_mpirun_train_the_same_network(self) -> None:
+        with tempfile.TemporaryDirectory() as one, tempfile.TemporaryDirectory() as two:
+            self.train(Path(one), "--iterations", "3")
+            for name in ("policy.yaml", "training.yaml"):
+                shutil.copy(Path(one) / name, two)
+            command = ["mpirun", "-n", "2", sys.executable, ROOT / "tools/policy-train/train_policy.py", two]
+            subprocess.run([*command, "--iterations", "3", "--threads", "1"], env={**os.environ, **MPI_ENVIRONMENT}, check=True,
+                           capture_output=True)
+            self.assertEqual((Path(one) / "policy.onnx").read_bytes(), (Path(two) / "policy.onnx").read_bytes())
+
     def test_goes_on_where_it_was_ended(self) -> None:
         with tempfile.TemporaryDirectory() as folder:
             self.train(Path(folder), "--iterations", "2")
@@ -91,14 +191,15 @@ class TrainingTest(unittest.TestCase):
             folder = Path(name)
             self.train(folder, "--iterations", "3")
             settings = {**train_policy.DEFAULTS, "size": 16, "horizon": 8, "hidden": [16]}
-            trainer = train_policy.Trainer(folder, "t1", settings, {}, 1, 1)
+            robots, weights = train_policy.open_batch(folder, "t1", settings, {}, seed=1, threads=1)
+            trainer = train_policy.Trainer(robots, settings, weights, seed=1)
             trainer.load(folder / "training.pt")
             observations = torch.from_numpy(trainer.batch.observations)
             expected = trainer.actor_of(observations).detach().numpy()
             network = cv2.dnn.readNetFromONNX(str(folder / "policy.onnx"))
             network.setInput(observations[:1].numpy())
             np.testing.assert_allclose(network.forward(), expected[:1], atol=1e-4)
-            trainer.batch.close()
+            robots.close()
 
 
 if __name__ == "__main__":
