@@ -9,7 +9,7 @@ import {ImageView} from "./controls/image_view";
 import type {Drive} from "./controls/stick";
 import {TiltSensor} from "./controls/tilt_sensor";
 import {WalkSender} from "./controls/walk_sender";
-import {exposeAutomation} from "./automation";
+import {automationOf} from "./automation";
 import {el} from "./dom";
 import {reloadButton} from "./screens/reload_button";
 import {listenToLeaving} from "./leaving";
@@ -171,7 +171,7 @@ export class App implements Actions {
   }
 
   start(): void {
-    exposeAutomation(this.store, this.stage, this.image, this.view, this.perception.objects);
+    window.naoRemote = automationOf(this.store, this.stage, this.image, this.view, this.perception.objects);
     new MatchEvents(this.store, this.messages, this.sound);
     this.store.watch((state) => state.imageAgeMs, (ageMs) => this.image.showAge(ageMs));
     this.store.watch(isStale, (isOn) => this.root.classList.toggle("stale", isOn));

@@ -41,6 +41,11 @@ export function icon(path: string): SVGSVGElement {
   return drawing(path, 24, "icon");
 }
 
+/** "#3d9bff" of 0x3d9bff. */
+export function cssColor(rgb: number): string {
+  return `#${rgb.toString(16).padStart(6, "0")}`;
+}
+
 /** Leaves the page alone where nothing changes: states come 60 times a second. */
 export function setText(element: HTMLElement, text: string): void {
   if (element.textContent !== text) element.textContent = text;

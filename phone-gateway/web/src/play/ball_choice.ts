@@ -3,10 +3,11 @@ import {Offer} from "../controls/offer";
 import {el} from "../dom";
 import {Play_Behavior} from "../protocol/generated/remote_pb";
 import {say} from "../text/texts";
+import {behaviorName} from "./play_words";
 
 export class BallChoice {
   readonly element = el("div", {class: "ball-choice", role: "group", "aria-label": say("play.ball"), hidden: true},
-    this.button("go-to-ball", Play_Behavior.GO_TO_BALL), this.button("kick", Play_Behavior.KICK));
+    this.button(Play_Behavior.GO_TO_BALL), this.button(Play_Behavior.KICK));
   private readonly choice = new Offer(this.element);
 
   constructor(private readonly choose: (behavior: Play_Behavior) => void) {}
@@ -20,7 +21,8 @@ export class BallChoice {
     this.choice.clear();
   }
 
-  private button(name: "go-to-ball" | "kick", behavior: Play_Behavior): HTMLButtonElement {
+  private button(behavior: Play_Behavior): HTMLButtonElement {
+    const name = behaviorName(behavior);
     return el("button", {class: "button primary", "data-name": name, onclick: () => {
       this.clear();
       this.choose(behavior);

@@ -4,10 +4,10 @@ import {ChoiceStrip} from "../controls/choice_strip";
 import {JointDriver} from "../controls/joint_driver";
 import {Joystick} from "../controls/joystick";
 import {button} from "../controls/press";
-import {el, setText} from "../dom";
+import {cssColor, el, setText} from "../dom";
 import type {Joint, JointGroup, State} from "../protocol/generated/remote_pb";
-import {cssColorOfAxis, jointOfAxis, kAxes} from "../robot/joint_balls";
-import type {Axis} from "../robot/joint_balls";
+import {jointOfAxis, kAxes, kAxisColors} from "../robot/joint_axes";
+import type {Axis} from "../robot/joint_axes";
 import {jointPosition} from "../store";
 import type {Store} from "../store";
 import {say, sayName} from "../text/texts";
@@ -152,7 +152,7 @@ export class JointsPanel {
 
 /** Gives an element the colour of its axis' arc. */
 function paint(axis: Axis, element: HTMLElement): HTMLElement {
-  element.style.setProperty("--axis", cssColorOfAxis(axis));
+  element.style.setProperty("--axis", cssColor(kAxisColors[axis]));
   return element;
 }
 

@@ -84,8 +84,8 @@ export class KeyframeList {
   private makeRow(index: number): Row {
     const number = index + 1;
     const title = button({class: "pose-title", "aria-expanded": "false"}, () => this.open(index), say("teach.pose", {number}));
-    const duration = new Stepper("", (direction) => this.setTime(index, "duration", direction));
-    const pause = new Stepper("", (direction) => this.setTime(index, "pause", direction));
+    const duration = new Stepper(say("motion.duration", {number}), true, (direction) => this.setTime(index, "duration", direction));
+    const pause = new Stepper(say("motion.pause"), true, (direction) => this.setTime(index, "pause", direction));
     const up = iconButton("button small", kUpIcon, say("motion.earlier"), () => this.move(index, -1));
     const down = iconButton("button small", kDownIcon, say("motion.later"), () => this.move(index, 1));
     const more = el("div", {class: "pose-more"},
@@ -100,13 +100,12 @@ export class KeyframeList {
       title.setAttribute("aria-expanded", String(isOpen));
       element.classList.toggle("bad", isBad);
       more.hidden = !isOpen;
-      showTime(duration, keyframe.duration, say("motion.duration", {number}));
-      showTime(pause, keyframe.pause, say("motion.pause"));
+      duration.show(secondsInWords(keyframe.duration));
+      pause.show(secondsInWords(keyframe.pause));
     }};
   }
 }
 
-function showTime(stepper: Stepper, seconds: number, what: string): void {
-  stepper.show(say("motion.seconds", {value: seconds.toFixed(1)}), say("motion.shorter", {what}),
-               say("motion.longer", {what}), what);
+export function secondsInWords(seconds: number): string {
+  return say("motion.seconds", {value: seconds.toFixed(1)});
 }

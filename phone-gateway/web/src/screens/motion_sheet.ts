@@ -10,7 +10,7 @@ import type {MotionHost} from "../teach/motion_host";
 import {freeName, motionName} from "../teach/motion_name";
 import {say, sayName} from "../text/texts";
 import {kCloseIcon, kMirrorIcon, kPlayIcon, kStopIcon, kUndoIcon} from "./icons";
-import {KeyframeList} from "./keyframe_list";
+import {KeyframeList, secondsInWords} from "./keyframe_list";
 import type {KeyframeActions} from "./keyframe_list";
 import {Note} from "./note";
 import {SavedList} from "./saved_list";
@@ -32,8 +32,8 @@ export class MotionSheet {
   private readonly note = new Note();
   private readonly draft: HTMLElement;
   private readonly none = el("p", {class: "quiet"}, say("motion.none"));
-  private readonly speed = new Stepper(say("motion.speed"), (direction) => this.changeSpeed(direction));
-  private readonly repeat = new Stepper(say("motion.repeat"), (direction) => this.changeRepetitions(direction));
+  private readonly speed = new Stepper(say("motion.speed"), false, (direction) => this.changeSpeed(direction));
+  private readonly repeat = new Stepper(say("motion.repeat"), false, (direction) => this.changeRepetitions(direction));
   private readonly undo: HTMLButtonElement;
   private readonly length = el("small", {class: "quiet"});
   private readonly isDraftShown = () => this.store.get().draft.keyframes.length > 0;
@@ -101,13 +101,9 @@ export class MotionSheet {
     this.none.hidden = this.isDraftShown();
     this.undo.disabled = !canUndoDraft;
     if (this.name.value !== draft.name) this.name.value = draft.name;
-    const speed = say("motion.speed");
-    this.speed.show(say("motion.percent", {value: Math.round(draft.speed * 100)}),
-                    say("motion.less", {what: speed}), say("motion.more", {what: speed}));
-    const repeat = say("motion.repeat");
-    this.repeat.show(say("motion.times", {value: draft.repetitions}),
-                     say("motion.less", {what: repeat}), say("motion.more", {what: repeat}));
-    this.length.textContent = say("motion.seconds", {value: (timeOf(draft) * draft.repetitions).toFixed(1)});
+    this.speed.show(say("motion.percent", {value: Math.round(draft.speed * 100)}));
+    this.repeat.show(say("motion.times", {value: draft.repetitions}));
+    this.length.textContent = secondsInWords(timeOf(draft) * draft.repetitions);
   }
 
   private showFault(fault: MotionFault | null): void {

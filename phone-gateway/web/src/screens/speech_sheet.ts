@@ -1,5 +1,5 @@
 /** What the robot says, and the colours of its lights: one sheet, over everything. */
-import {el, icon} from "../dom";
+import {cssColor, el, icon} from "../dom";
 import {getLanguage, say, sayName} from "../text/texts";
 import type {TextKey} from "../text/texts";
 import {kCloseIcon} from "./icons";
@@ -90,8 +90,7 @@ export class SpeechSheet {
   }
 
   private swatch(key: TextKey, rgb: number): HTMLElement {
-    const color = `#${rgb.toString(16).padStart(6, "0")}`;
-    return el("button", {class: "swatch", style: `--swatch: ${color}`, "aria-label": say(key), title: say(key),
+    return el("button", {class: "swatch", style: `--swatch: ${cssColor(rgb)}`, "aria-label": say(key), title: say(key),
                          onclick: () => this.actions.setLights(this.chosenLights(), rgb)});
   }
 

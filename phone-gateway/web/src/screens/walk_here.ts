@@ -28,7 +28,7 @@ export class WalkHere {
     this.stage.floor.mark(spot, robot);
     this.stage.outdate();
     // As it is now: a button that sways with the view is hard to hit.
-    this.offer.show(x, y, this.stage.size.width);
+    this.offer.show(x, y, this.stage.canvas.clientWidth);
   }
 
   clear(): void {
