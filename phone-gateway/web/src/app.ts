@@ -92,7 +92,8 @@ export class App implements Actions {
   private isShown = false;
   private isVisiting = false;
 
-  constructor(private readonly root: HTMLElement, private settings: Settings) {
+  constructor(private readonly root: HTMLElement, settings: Settings) {
+    this.store.set({settings});
     this.connection = new Connection(
         this.transport, this.store, {
           connected: () => void this.connected(),
@@ -110,8 +111,6 @@ export class App implements Actions {
           },
           notice: (notice) => this.commander.notice(notice),
           audio: (audio) => this.speech.play(audio),
-          playState: (playState) => this.store.set({playState}),
-          vision: (vision) => this.store.set({vision}),
         });
     this.commander = new Commander(this.connection, this.store, this.messages);
     this.walk = new WalkSender((drive, isLocked) => this.sendWalk(drive, isLocked));
@@ -150,15 +149,11 @@ export class App implements Actions {
       relax: (group) => void this.teach.relax(group),
     });
     this.play = new PlayStrip(this.store, this.commander, this.messages);
-    this.perception = new Perception(this.store, this.stage, this.image, this.play, settings.hasBoxes,
-                                     (hasBoxes) => this.keep({hasBoxes}));
+    this.perception = new Perception(this.store, this.stage, this.image, this.play, this);
     const view = el("div", {class: "view"}, canvas, this.walkHere.element, lost);
     const notes = el("div", {class: "notes"}, causeBar(this.store, this.commander, this));
     this.controllerScreen = new ControllerScreen(this.store, this.commander, this.walk, view, this.image, joints, this.tilt,
                                                  this.play, this.perception.map.element, notes, this);
-    if (!settings.hasWalked) this.controllerScreen.showHint();
-    this.image.onSwap = (isLarge) => this.controllerScreen.showCameraLarge(isLarge);
-    this.controllerScreen.setSwapped(settings.isSwapped);
     this.menu = new MenuSheet(settings.isSwapped, this);
     this.lobby = new Lobby(this.store, this.commander, this.messages, this);
     const messages = messageList(this.store);
@@ -314,7 +309,7 @@ export class App implements Actions {
         {camera, width: this.image.isLarge ? 640 : 320};
     const [stateRate, imageRate] = isHidden ? [0, 0] : isNarrow ? [kNarrowStateRateHz, kNarrowImage.rate] : [kStateRateHz, kImageRateHz];
     void this.connection.request({case: "subscribe", value: {
-      stateRate, imageRate, image, audio: this.speech.isPlaying && !isNarrow, playState: true, vision: !isHidden}});
+      stateRate, imageRate, image, audio: this.store.get().speech.isPlaying && !isNarrow, playState: true, vision: !isHidden}});
   }
 
   private shown(): void {
@@ -423,15 +418,6 @@ export class App implements Actions {
     this.lobby.open();
   }
 
-  walked(): void {
-    this.keep({hasWalked: true});
-  }
-
-  setSwapped(isSwapped: boolean): void {
-    this.keep({isSwapped});
-    this.controllerScreen.setSwapped(isSwapped);
-  }
-
   openMenu(): void {
     this.held.release();
     const {state, robot, robots} = this.store.get();
@@ -446,7 +432,7 @@ export class App implements Actions {
   async setTilt(isOn: boolean): Promise<boolean> {
     const isTilting = isOn && (await this.tilt.switchOn());
     if (!isTilting) this.tilt.switchOff();
-    this.controllerScreen.setTilt(isTilting);
+    this.store.set({isTilting});
     return isTilting;
   }
 
@@ -463,9 +449,13 @@ export class App implements Actions {
     this.messages.show("info", linkQuality(state) === "poor" ? `${words}. ${say("drive.linkPoor")}` : words);
   }
 
-  private keep(settings: Partial<Settings>): void {
-    this.settings = {...this.settings, ...settings};
+  keep(settings: Partial<Settings>): void {
+    this.store.set({settings: {...this.settings, ...settings}});
     saveSettings(storage(), this.settings);
+  }
+
+  private get settings(): Settings {
+    return this.store.get().settings;
   }
 
   /** Nobody sees the robot any more: it does nothing by itself either. */

@@ -5,7 +5,7 @@ import {decodeServerMessage, encodeRequest, kProtocolVersion} from "./protocol/c
 import type {UseCase} from "./protocol/codec";
 import {ErrorCode, Notice_Kind} from "./protocol/generated/remote_pb";
 import type {
-  Audio, Connected, Control, Notice, Image, PlayState, Response, RobotDescription, State, Vision,
+  Audio, Connected, Control, Notice, Image, Response, RobotDescription, State,
 } from "./protocol/generated/remote_pb";
 import {SecondConnection} from "./second_connection";
 import type {Problem, Store} from "./store";
@@ -35,8 +35,6 @@ export interface ConnectionListener {
   image(image: Image): void;
   notice(notice: Notice): void;
   audio?(audio: Audio): void;
-  playState?(state: PlayState): void;
-  vision?(vision: Vision): void;
 }
 
 export interface Identity {
@@ -234,8 +232,8 @@ export class Connection {
 
   /** A message over either connection. */
   private handle(bytes: Uint8Array): void {
-    const {message} = decodeServerMessage(bytes) ?? {message: {case: undefined}};
-    switch (message.case) {
+    const message = decodeServerMessage(bytes)?.message;
+    switch (message?.case) {
       case "response": {
         const resolve = this.pending.get(message.value.requestId);
         this.pending.delete(message.value.requestId);
@@ -257,9 +255,8 @@ export class Connection {
         break;
       case "notice": this.noticed(message.value); break;
       case "audio": this.listener.audio?.(message.value); break;
-      case "playState": this.listener.playState?.(message.value); break;
-      case "vision": this.listener.vision?.(message.value); break;
-      case undefined: break;
+      case "playState": this.store.set({playState: message.value}); break;
+      case "vision": this.store.set({vision: message.value}); break;
     }
   }
 

@@ -3,6 +3,7 @@ import type {ImageView} from "../controls/image_view";
 import {Play_Behavior} from "../protocol/generated/remote_pb";
 import type {FieldLines} from "../robot/floor";
 import type {Stage} from "../robot/stage";
+import type {Actions} from "../screens/actions";
 import type {Store} from "../store";
 import {BallChoice} from "./ball_choice";
 import {FieldMap} from "./field_map";
@@ -17,11 +18,9 @@ export class Perception {
   readonly objects: SeenObjects;
   private readonly marks: ImageMarks;
 
-  /** @param keepBoxes  remembers whether boxes are shown over the image. */
-  constructor(private readonly store: Store, private readonly stage: Stage, image: ImageView, play: PlayStrip,
-              hasBoxes: boolean, keepBoxes: (isOn: boolean) => void) {
+  constructor(private readonly store: Store, private readonly stage: Stage, image: ImageView, play: PlayStrip, act: Actions) {
     this.objects = new SeenObjects(stage);
-    this.marks = new ImageMarks(hasBoxes, keepBoxes);
+    this.marks = new ImageMarks(store, act);
     this.choice = new BallChoice((behavior: Play_Behavior) => play.begin(behavior));
     image.addMarks(this.marks.element, this.marks.button);
     image.onTap = ({x, y, pageX, pageY}) => this.canPlay && isBallInImage(this.store.get().vision, x, y) &&

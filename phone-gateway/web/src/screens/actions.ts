@@ -1,5 +1,6 @@
 /** What the screens ask of the app. */
 import type {BluetoothDevice} from "../bluetooth/web_bluetooth";
+import type {Settings} from "../settings";
 import type {Language} from "../text/texts";
 
 /** What stands in the form for a connection. */
@@ -27,11 +28,9 @@ export interface Actions {
   setJointsMode(isOn: boolean): void;
   stop(): void;
   explainLink(): void;
-  /** The person has walked the robot: the hint has served. */
-  walked(): void;
   /** @return whether tilting is on now. */
   setTilt(isOn: boolean): Promise<boolean>;
-  /** True: walk on the right, turn on the left. */
-  setSwapped(isSwapped: boolean): void;
+  /** The phone remembers settings. */
+  keep(settings: Partial<Settings>): void;
   setLanguage(language: Language): void;
 }

@@ -24,7 +24,7 @@ export class ControllerScreen {
   readonly element: HTMLElement;
   /** Where the robot is drawn in the midst, when it is the large view. */
   private readonly free = el("div", {class: "free"});
-  private readonly hint = el("p", {class: "hint", hidden: true}, el("span", {class: "by-touch"}, say("hint.walk")),
+  private readonly hint = el("p", {class: "hint"}, el("span", {class: "by-touch"}, say("hint.walk")),
                              el("span", {class: "by-keys"}, say("hint.keys")));
   private readonly sticks: Sticks;
   private readonly joints: HTMLButtonElement;
@@ -33,9 +33,13 @@ export class ControllerScreen {
   /** @param view  the robot in 3D. @param notes  messages and causes. */
   constructor(store: Store, commander: Commander, walk: WalkSender, private readonly view: HTMLElement,
               private readonly image: ImageView, private readonly panel: JointsPanel, tilt: TiltSensor, play: PlayStrip,
-              map: Element, notes: HTMLElement, private readonly act: Actions) {
-    this.sticks = new Sticks(walk, tilt);
-    this.sticks.onUse = () => this.hintServed();
+              map: Element, notes: HTMLElement, act: Actions) {
+    this.sticks = new Sticks(store, walk, tilt);
+    // The hint has served.
+    this.sticks.onUse = () => {
+      if (!store.get().settings.hasWalked) act.keep({hasWalked: true});
+    };
+    image.onSwap = (isLarge) => this.element.classList.toggle("camera-large", isLarge);
     const stop = el("button", {class: "stop"}, icon(kStopIcon), el("span", {}, say("drive.stop")),
                     el("kbd", {"aria-hidden": "true"}, say("drive.stopKey")));
     onPressDown(stop, () => act.stop());
@@ -51,31 +55,16 @@ export class ControllerScreen {
     this.setOpen(false);
     store.watch((state) => state.isJointsMode, (isOn) => this.showMode(isOn));
     store.watch((state) => state.robot, (robot) => this.element.classList.toggle("walks", canWalk(robot)));
+    store.watch((state) => state.settings, ({isSwapped, hasWalked}) => {
+      this.element.classList.toggle("swapped", isSwapped);
+      this.hint.hidden = hasWalked;
+    });
   }
 
   /** Releases all controls. */
   release(): void {
     this.sticks.release();
     this.panel.release();
-  }
-
-  /** True: walk on the right, turn on the left. */
-  setSwapped(isSwapped: boolean): void {
-    this.element.classList.toggle("swapped", isSwapped);
-  }
-
-  setTilt(isOn: boolean): void {
-    this.sticks.setTilt(isOn);
-  }
-
-  /** Tells how to walk, until it was done. */
-  showHint(): void {
-    this.hint.hidden = false;
-  }
-
-  /** True: the camera's image is the large view. */
-  showCameraLarge(isLarge: boolean): void {
-    this.element.classList.toggle("camera-large", isLarge);
   }
 
   /** Calls `changed` with the part of the 3D view where the robot is to be, px, now and whenever it is another; null: all. */
@@ -103,12 +92,6 @@ export class ControllerScreen {
     relabel(this.joints, isJointsMode ? "drive.drive" : "drive.joints", isJointsMode ? kWalkIcon : kJointsIcon);
     this.joints.append(el("kbd", {"aria-hidden": "true"}, "L"));
     this.joints.setAttribute("aria-pressed", String(isJointsMode));
-  }
-
-  private hintServed(): void {
-    if (this.hint.hidden) return;
-    this.hint.hidden = true;
-    this.act.walked();
   }
 }
 

@@ -20,7 +20,7 @@ export class MenuSheet {
       ...kLanguages.map((tag) => el("option", {value: tag, selected: tag === getLanguage()},
                                     kLanguageNames[tag])));
     this.element = sheet("settings", say("menu.title"), null, this.tiltSwitch(),
-      switchRow(say("menu.swap"), "", isSwapped, false, (input) => act.setSwapped(input.checked)),
+      switchRow(say("menu.swap"), "", isSwapped, false, (input) => act.keep({isSwapped: input.checked})),
       el("label", {class: "row"}, el("span", {}, say("menu.language")), language),
       el("h3", {}, say("body.title")), this.condition,
       el("h3", {}, say("menu.help")),
