@@ -30,7 +30,6 @@ import {ConnectionScreen} from "./screens/connection_screen";
 import {causeBar} from "./screens/cause";
 import {ControllerScreen} from "./screens/controller_screen";
 import {JointsPanel} from "./screens/joints_panel";
-import {linkInWords, linkQuality} from "./screens/link_sign";
 import {LoadingScreen} from "./screens/loading_screen";
 import {messageList} from "./screens/message_list";
 import {MenuSheet} from "./screens/menu_sheet";
@@ -45,7 +44,6 @@ import {Teach} from "./teach/teach";
 import {bodyInWords} from "./text/body";
 import {findGateways} from "./nearby";
 import {say} from "./text/texts";
-import type {Language} from "./text/texts";
 import {GatewayTransport} from "./relay/gateway_transport";
 import {kRefusalPattern, kTapPattern, vibrate} from "./vibrate";
 import {WakeLock} from "./wake_lock";
@@ -153,7 +151,7 @@ export class App implements Actions {
     const view = el("div", {class: "view"}, canvas, this.walkHere.element, lost);
     const notes = el("div", {class: "notes"}, causeBar(this.store, this.commander, this));
     this.controllerScreen = new ControllerScreen(this.store, this.commander, this.walk, view, this.image, joints, this.tilt,
-                                                 this.play, this.perception.map.element, notes, this);
+                                                 this.play, this.perception.map.element, notes, this.messages, this);
     this.menu = new MenuSheet(settings.isSwapped, this);
     this.lobby = new Lobby(this.store, this.commander, this.messages, this);
     const messages = messageList(this.store);
@@ -246,21 +244,14 @@ export class App implements Actions {
     if (fromUrl || known || isLoopback(location.hostname)) this.open();
   }
 
-  connect({address, token, clientName}: ConnectionForm): void {
-    this.keep({clientName});
-    this.token = token;
-    this.transport.device = null;
-    const url = pageUrl(address, token);
-    // Another robot's page comes from that robot: its gateway lets no foreign page in.
-    if (url && url.host !== location.host) location.assign(url);
-    else this.open();
-  }
-
-  connectByBluetooth({token, clientName}: ConnectionForm, device: BluetoothDevice): void {
+  connect({address, token, clientName}: ConnectionForm, device: BluetoothDevice | null = null): void {
     this.keep({clientName});
     this.token = token;
     this.transport.device = device;
-    this.open();
+    const url = device ? null : pageUrl(address, token);
+    // Another robot's page comes from that robot: its gateway lets no foreign page in.
+    if (url && url.host !== location.host) location.assign(url);
+    else this.open();
   }
 
   private open(): void {
@@ -410,10 +401,6 @@ export class App implements Actions {
     if (group) this.commander.stream({case: "changeJoints", value: {group, yaw, pitch, roll: 0}});
   }
 
-  openForm(): void {
-    this.store.set({isFormOpen: true});
-  }
-
   changeRobot(): void {
     this.lobby.open();
   }
@@ -434,19 +421,6 @@ export class App implements Actions {
     if (!isTilting) this.tilt.switchOff();
     this.store.set({isTilting});
     return isTilting;
-  }
-
-  /** Words are put in place once; another language starts the page again, which connects by itself. */
-  setLanguage(language: Language): void {
-    this.keep({language});
-    this.held.release();
-    location.reload();
-  }
-
-  explainLink(): void {
-    const state = this.store.get();
-    const words = linkInWords(state);
-    this.messages.show("info", linkQuality(state) === "poor" ? `${words}. ${say("drive.linkPoor")}` : words);
   }
 
   keep(settings: Partial<Settings>): void {

@@ -1,6 +1,5 @@
 /** The referee's whistle and a goal's fanfare, made by the browser's Web Audio. */
 import {Match_Event} from "../protocol/generated/remote_pb";
-import type {Sound} from "../sound";
 
 /** Frequency, Hz, start and duration, s, of each tone. */
 type Tone = readonly [frequency: number, start: number, duration: number];
@@ -23,23 +22,19 @@ export function tonesOf(event: Match_Event): readonly Tone[] {
   }
 }
 
-export class MatchSound {
-  constructor(private readonly sound: Pick<Sound, "running">) {}
-
-  play(event: Match_Event): void {
-    const context = this.sound.running;
-    if (!context) return;
-    for (const [frequency, start, duration] of tonesOf(event)) {
-      const gain = context.createGain();
-      const tone = new OscillatorNode(context, {type: "triangle", frequency});
-      const begin = context.currentTime + start;
-      gain.gain.setValueAtTime(0, begin);
-      gain.gain.linearRampToValueAtTime(kVolume, begin + kFade);
-      gain.gain.setValueAtTime(kVolume, begin + duration - kFade);
-      gain.gain.linearRampToValueAtTime(0, begin + duration);
-      tone.connect(gain).connect(context.destination);
-      tone.start(begin);
-      tone.stop(begin + duration);
-    }
+/** @param context  null while there is no sound. */
+export function playTones(context: AudioContext | null, tones: readonly Tone[]): void {
+  if (!context) return;
+  for (const [frequency, start, duration] of tones) {
+    const gain = context.createGain();
+    const tone = new OscillatorNode(context, {type: "triangle", frequency});
+    const begin = context.currentTime + start;
+    gain.gain.setValueAtTime(0, begin);
+    gain.gain.linearRampToValueAtTime(kVolume, begin + kFade);
+    gain.gain.setValueAtTime(kVolume, begin + duration - kFade);
+    gain.gain.linearRampToValueAtTime(0, begin + duration);
+    tone.connect(gain).connect(context.destination);
+    tone.start(begin);
+    tone.stop(begin + duration);
   }
 }

@@ -1,7 +1,7 @@
 /** Joints mode on the stage: the robot becomes translucent, each joint group gets a ball to tap, and
  * arcs show how far the chosen one turns. */
 import {
-  BufferGeometry, Float32BufferAttribute, Group, Line, LineBasicMaterial, Mesh, MeshBasicMaterial,
+  BufferGeometry, Float32BufferAttribute, Group, Line, LineBasicMaterial, Matrix4, Mesh, MeshBasicMaterial,
   Quaternion, RingGeometry, SphereGeometry, Vector3,
 } from "three";
 import type {Object3D} from "three";
@@ -151,10 +151,7 @@ function arcFrame(axis: Vector3, zero: Vector3): Quaternion {
   if (flat.lengthSq() < 1e-4) flat.set(1, 0, 0).addScaledVector(axis, -axis.x);
   if (flat.lengthSq() < 1e-4) flat.set(0, 0, -1).addScaledVector(axis, axis.z);
   flat.normalize();
-  const toAxis = new Quaternion().setFromUnitVectors(new Vector3(0, 0, 1), axis);
-  const x = new Vector3(1, 0, 0).applyQuaternion(toAxis);
-  const angle = Math.atan2(x.clone().cross(flat).dot(axis), x.dot(flat));
-  return new Quaternion().setFromAxisAngle(axis, angle).multiply(toAxis);
+  return new Quaternion().setFromRotationMatrix(new Matrix4().makeBasis(flat, axis.clone().cross(flat), axis));
 }
 
 /** Where the link points at angle 0: to the next link that is not at the same place. */

@@ -1,7 +1,6 @@
 /** What the screens ask of the app. */
 import type {BluetoothDevice} from "../bluetooth/web_bluetooth";
 import type {Settings} from "../settings";
-import type {Language} from "../text/texts";
 
 /** What stands in the form for a connection. */
 export interface ConnectionForm {
@@ -11,9 +10,8 @@ export interface ConnectionForm {
 }
 
 export interface Actions {
-  connect(form: ConnectionForm): void;
-  connectByBluetooth(form: ConnectionForm, device: BluetoothDevice): void;
-  openForm(): void;
+  /** @param device  by Bluetooth; none: over the network. */
+  connect(form: ConnectionForm, device?: BluetoothDevice): void;
   /** Connects at once. */
   retry(): void;
   leave(): void;
@@ -27,10 +25,8 @@ export interface Actions {
   openSpeech(): void;
   setJointsMode(isOn: boolean): void;
   stop(): void;
-  explainLink(): void;
   /** @return whether tilting is on now. */
   setTilt(isOn: boolean): Promise<boolean>;
   /** The phone remembers settings. */
   keep(settings: Partial<Settings>): void;
-  setLanguage(language: Language): void;
 }

@@ -55,7 +55,7 @@ export function causeBar(store: Store, commander: Commander, act: Actions): HTML
   const bar = el("div", {class: "cause", role: "status", hidden: true});
   const remedies: Record<Remedy, () => void> = {
     reload: () => location.reload(),
-    form: () => act.openForm(),
+    form: () => store.set({isFormOpen: true}),
     retry: () => act.retry(),
     robots: () => act.changeRobot(),
     "hand-over": () => void commander.handOver(),

@@ -6,6 +6,7 @@ import {iconButton, onPressDown} from "../controls/press";
 import type {TiltSensor} from "../controls/tilt_sensor";
 import type {WalkSender} from "../controls/walk_sender";
 import {el, icon} from "../dom";
+import type {Messages} from "../messages";
 import type {PlayStrip} from "../play/play_strip";
 import type {FreeArea} from "../robot/stage";
 import type {RobotDescription} from "../protocol/generated/remote_pb";
@@ -30,10 +31,10 @@ export class ControllerScreen {
   private readonly joints: HTMLButtonElement;
   private readonly more = navButton("more-button", "drive.more", kMoreIcon, () => this.setOpen(!this.element.classList.contains("open")));
 
-  /** @param view  the robot in 3D. @param notes  messages and causes. */
+  /** @param view  the robot in 3D. @param notes  where messages and causes are. */
   constructor(store: Store, commander: Commander, walk: WalkSender, private readonly view: HTMLElement,
               private readonly image: ImageView, private readonly panel: JointsPanel, tilt: TiltSensor, play: PlayStrip,
-              map: Element, notes: HTMLElement, act: Actions) {
+              map: Element, notes: HTMLElement, messages: Messages, act: Actions) {
     this.sticks = new Sticks(store, walk, tilt);
     // The hint has served.
     this.sticks.onUse = () => {
@@ -46,7 +47,7 @@ export class ControllerScreen {
     this.joints = navButton("joints-button", "drive.joints", kJointsIcon, () => act.setJointsMode(!store.get().isJointsMode));
     this.element = el("section", {class: "screen controller-screen"},
       view, image.element, this.free, el("div", {class: "sheet"}),
-      new Status(store, commander, () => act.changeRobot()).element, linkSign(store, () => act.explainLink()),
+      new Status(store, commander, () => act.changeRobot()).element, linkSign(store, messages),
       notes, el("nav", {class: "modes", "aria-label": say("drive.menu")}, this.joints, this.more,
          navButton("speech-button", "drive.speak", kSpeechIcon, () => act.openSpeech()),
          navButton("menu-button", "drive.menu", kMenuIcon, () => act.openMenu())),

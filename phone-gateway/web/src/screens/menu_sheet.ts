@@ -2,7 +2,7 @@
 import {TiltSensor} from "../controls/tilt_sensor";
 import {el} from "../dom";
 import {getLanguage, kLanguageNames, kLanguages, say} from "../text/texts";
-import type {Language, TextKey} from "../text/texts";
+import type {TextKey} from "../text/texts";
 import type {Actions} from "./actions";
 import {sheet} from "./sheet";
 
@@ -16,7 +16,11 @@ export class MenuSheet {
                                           onclick: this.closeAnd(() => this.act.changeRobot())}, say("lobby.open"));
 
   constructor(isSwapped: boolean, private readonly act: Actions) {
-    const language = el("select", {onchange: () => act.setLanguage(language.value as Language)},
+    // Words are put in place once; another language starts the page again, which connects by itself.
+    const language = el("select", {onchange: () => {
+      act.keep({language: language.value});
+      location.reload();
+    }},
       ...kLanguages.map((tag) => el("option", {value: tag, selected: tag === getLanguage()},
                                     kLanguageNames[tag])));
     this.element = sheet("settings", say("menu.title"), null, this.tiltSwitch(),

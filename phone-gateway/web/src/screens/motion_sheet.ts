@@ -15,7 +15,6 @@ import type {KeyframeActions} from "./keyframe_list";
 import {Note} from "./note";
 import {SavedList} from "./saved_list";
 import {sheet} from "./sheet";
-import {faultInWords} from "./teach_bar";
 
 const kSpeedStep = 0.1;
 
@@ -108,8 +107,7 @@ export class MotionSheet {
 
   private showFault(fault: MotionFault | null): void {
     this.note.hide();
-    if (!fault || fault.isUpload) return;
-    this.note.tell("bad", faultInWords(fault), fault.repaired ? fault.repairText : "", () => this.act.repair());
+    if (fault && !fault.isUpload) this.note.tellFault(fault, () => this.act.repair());
   }
 
   private async saveDraft(isReplacing: boolean): Promise<void> {

@@ -8,7 +8,8 @@ import type {MotionFault, Store} from "../store";
 import {keyframeAt} from "../teach/motion_draft";
 import {kTemporaryName} from "../teach/motion_name";
 import {say} from "../text/texts";
-import {kAddIcon, kCloseIcon, kListIcon, kPlayIcon, kSaveIcon} from "./icons";
+import {kAddIcon, kListIcon, kPlayIcon, kSaveIcon} from "./icons";
+import {Note} from "./note";
 
 export interface TeachBarActions {
   addPose(): void;
@@ -21,7 +22,7 @@ export interface TeachBarActions {
 
 export class TeachBar {
   readonly element: HTMLElement;
-  private readonly fault = el("div", {class: "teach-fault", role: "alert", hidden: true});
+  private readonly fault = new Note();
   private readonly dots = el("ol", {class: "pose-dots", tabindex: 0, "aria-label": say("teach.poses")});
   private readonly status = el("p", {class: "unseen", role: "status"});
   private readonly play: HTMLButtonElement;
@@ -32,7 +33,7 @@ export class TeachBar {
   constructor(private readonly store: Store, private readonly act: TeachBarActions) {
     this.play = iconButton("button small teach-play", kPlayIcon, this.playText, () => act.play());
     this.open = button({class: "button small teach-open"}, () => act.open());
-    this.element = el("section", {class: "teach-bar", "aria-label": say("teach.bar")}, this.fault, this.status, this.dots,
+    this.element = el("section", {class: "teach-bar", "aria-label": say("teach.bar")}, this.fault.element, this.status, this.dots,
       el("div", {class: "teach-buttons"},
          iconButton("button small teach-add", kAddIcon, say("teach.add"), () => act.addPose()), this.play, this.open));
     store.watch((state) => state.draft.keyframes.length, (number) => this.showNumber(number));
@@ -61,15 +62,10 @@ export class TeachBar {
 
   private showFault(fault: MotionFault | null): void {
     // One of a file is shown in the sheet, where the file was chosen.
-    const isShown = fault !== null && !fault.isUpload;
-    this.fault.hidden = !isShown;
-    for (const [i, dot] of [...this.dots.children].entries()) {
-      dot.classList.toggle("bad", isShown && i === fault.keyframe);
-    }
-    if (!isShown) return;
-    const close = button({class: "round", "aria-label": say("teach.dismiss")}, () => this.store.set({motionFault: null}), icon(kCloseIcon));
-    const repair = fault.repaired ? [button({class: "button small primary"}, () => this.act.repair(), fault.repairText)] : [];
-    this.fault.replaceChildren(el("p", {}, faultInWords(fault)), close, ...repair);
+    const shown = fault?.isUpload ? null : fault;
+    for (const [i, dot] of [...this.dots.children].entries()) dot.classList.toggle("bad", i === shown?.keyframe);
+    this.fault.hide();
+    if (shown) this.fault.tellFault(shown, () => this.act.repair());
   }
 
   /** Marks the pose that the robot goes to while the draft is played. */
@@ -82,9 +78,4 @@ export class TeachBar {
     this.dots.children[current]?.classList.add("current");
     this.current = current;
   }
-}
-
-/** A fault with the pose at which it shows. */
-export function faultInWords({keyframe, text}: MotionFault): string {
-  return keyframe < 0 ? text : say("teach.faultAt", {number: keyframe + 1, text});
 }
