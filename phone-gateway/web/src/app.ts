@@ -30,7 +30,7 @@ import {ConnectionScreen} from "./screens/connection_screen";
 import {causeBar} from "./screens/cause";
 import {ControllerScreen} from "./screens/controller_screen";
 import {JointsPanel} from "./screens/joints_panel";
-import {LoadingScreen} from "./screens/loading_screen";
+import {loadingScreen} from "./screens/loading_screen";
 import {messageList} from "./screens/message_list";
 import {MenuSheet} from "./screens/menu_sheet";
 import {WalkHere} from "./screens/walk_here";
@@ -55,8 +55,6 @@ const kImageRateHz = 15;
 /** By Bluetooth, 100 kbit/s: 20 states a second also while an image is sent. */
 const kNarrowStateRateHz = 25;
 const kNarrowImage = {rate: 1, width: 160, quality: 30};
-
-type ScreenName = "loading" | "connection" | "lobby" | "controller";
 
 export class App implements Actions {
   private readonly store = new Store();
@@ -142,10 +140,8 @@ export class App implements Actions {
     };
     this.speech = new Speech(this.store, this.commander, this.stage, storage(), this.sound, () => this.subscribe());
     this.connectionScreen = new ConnectionScreen(this.store, this);
-    const joints = new JointsPanel(this.store, this.jointDriver, this.teach.bar, {
-      reset: () => void this.teach.leave().then(() => this.goToPosture(this.store.get().robot?.readyPosture)),
-      relax: (group) => void this.teach.relax(group),
-    });
+    const joints = new JointsPanel(this.store, this.jointDriver, this.teach, () =>
+        void this.teach.leave().then(() => this.goToPosture(this.store.get().robot?.readyPosture)));
     this.play = new PlayStrip(this.store, this.commander, this.messages);
     this.perception = new Perception(this.store, this.stage, this.image, this.play, this);
     const view = el("div", {class: "view"}, canvas, this.walkHere.element, lost);
@@ -156,7 +152,7 @@ export class App implements Actions {
     this.lobby = new Lobby(this.store, this.commander, this.messages, this);
     const messages = messageList(this.store);
     this.store.watch((state) => state.isChoosingRobot, (isLobby) => (isLobby ? this.lobby.screen.element : notes).append(messages));
-    root.append(new LoadingScreen(this.store, () => void this.view.load()).element,
+    root.append(loadingScreen(this.store, () => void this.view.load()),
                 this.connectionScreen.element, this.lobby.screen.element, this.controllerScreen.element,
                 this.menu.element, this.speech.sheet.element, this.teach.sheet.element,
                 this.perception.choice.element);
@@ -444,7 +440,7 @@ export class App implements Actions {
     const isLoaded = loading.total > 0 && loading.done === loading.total;
     // What was seen of a robot stays in sight; its cause bar says why nothing new comes.
     const hasRobot = robot !== null && !isFormOpen && (phase !== "idle" || problem !== null);
-    const screen: ScreenName = phase !== "connected" && !hasRobot ? "connection" : isChoosingRobot ? "lobby" :
+    const screen = phase !== "connected" && !hasRobot ? "connection" : isChoosingRobot ? "lobby" :
         isLoaded ? "controller" : "loading";
     if (this.root.dataset["screen"] === screen) return;
     this.root.dataset["screen"] = screen;

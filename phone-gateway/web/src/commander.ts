@@ -107,12 +107,8 @@ export class Commander {
   private haveControl(): Promise<boolean> {
     const control = this.store.get().control;
     if (control?.isMine) return Promise.resolve(true);
-    if (control?.isMuted) {
-      this.messages.show("info", say("control.muted"));
-      return Promise.resolve(false);
-    }
-    if (control && control.driverId !== 0) {
-      this.messages.show("info", say("control.other", {name: control.driverName}));
+    if (control?.isMuted || control?.driverId) {
+      this.messages.show("info", control.isMuted ? say("control.muted") : say("control.other", {name: control.driverName}));
       return Promise.resolve(false);
     }
     // Two controls touched at once send one request.

@@ -1,10 +1,8 @@
 /** A value between two buttons, less and more: for values that are changed rarely and exactly. */
 import {el, icon, setText} from "../dom";
+import {kAddIcon, kLessIcon} from "../screens/icons";
 import {say} from "../text/texts";
 import {button} from "./press";
-
-const kMinusIcon = "M6 12h12";
-const kPlusIcon = "M12 6v12M6 12h12";
 
 export class Stepper {
   readonly element: HTMLElement;
@@ -13,9 +11,9 @@ export class Stepper {
   /** @param what  is changed. @param isTime  it becomes shorter and longer. @param step  called with -1 or 1. */
   constructor(what: string, isTime: boolean, step: (direction: number) => void) {
     this.element = el("div", {class: "stepper", role: "group", "aria-label": what},
-      button({class: "round", "aria-label": say(isTime ? "motion.shorter" : "motion.less", {what})}, () => step(-1), icon(kMinusIcon)),
+      button({class: "round", "aria-label": say(isTime ? "motion.shorter" : "motion.less", {what})}, () => step(-1), icon(kLessIcon)),
       this.output,
-      button({class: "round", "aria-label": say(isTime ? "motion.longer" : "motion.more", {what})}, () => step(1), icon(kPlusIcon)));
+      button({class: "round", "aria-label": say(isTime ? "motion.longer" : "motion.more", {what})}, () => step(1), icon(kAddIcon)));
   }
 
   /** @param text  value in words. */

@@ -18,9 +18,8 @@ export class PlayStrip {
 
   constructor(private readonly store: Store, private readonly commander: Commander,
               private readonly messages: Messages) {
-    this.strip = new ChoiceStrip(say("play.strip"), (name) => this.chosen(name));
+    this.strip = new ChoiceStrip(say("play.strip"), "play-strip", (name) => this.chosen(name));
     this.element = this.strip.element;
-    this.element.classList.add("play-strip");
     this.strip.setChoices(kOffered.map(behaviorName).map((name) => ({name, label: say(`play.${name}`)})));
     store.watch((state) => state.playState !== null, (isThere) => this.element.hidden = !isThere);
     store.watch((state) => state.playState?.behavior ?? Play_Behavior.NONE,

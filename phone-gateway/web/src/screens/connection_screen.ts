@@ -99,14 +99,11 @@ export class ConnectionScreen {
     clearInterval(this.countdown);
     this.showProblem(state);
     const isBusy = state.phase === "connecting";
+    const isWaiting = state.phase === "waiting";
     this.cancel.hidden = state.phase === "idle";
     this.submit.disabled = isBusy;
-    this.submit.textContent = say(isBusy ? "connection.connecting" :
-                                  state.phase === "waiting" ? "connection.now" :
-                                  "connection.connect");
-    if (state.phase === "waiting") {
-      this.countdown = setInterval(() => this.showProblem(this.store.get()), 250);
-    }
+    this.submit.textContent = say(isBusy ? "connection.connecting" : isWaiting ? "connection.now" : "connection.connect");
+    if (isWaiting) this.countdown = setInterval(() => this.showProblem(this.store.get()), 250);
   }
 
   private showProblem(state: Readonly<AppState>): void {

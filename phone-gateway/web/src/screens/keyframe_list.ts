@@ -5,8 +5,9 @@ import {Stepper} from "../controls/stepper";
 import {el} from "../dom";
 import type {Store} from "../store";
 import type {DraftEditor} from "../teach/draft_editor";
-import {changeKeyframe, kMinDuration, moveKeyframe, removeKeyframe} from "../teach/motion_draft";
+import {changeKeyframe, kMinDuration, moveKeyframe, onlyKeyframe, removeKeyframe} from "../teach/motion_draft";
 import type {DraftKeyframe} from "../teach/motion_draft";
+import type {Teach} from "../teach/teach";
 import {say} from "../text/texts";
 import {kDeleteIcon, kDownIcon, kPlayIcon, kUpIcon, kAddIcon} from "./icons";
 
@@ -14,13 +15,6 @@ import {kDeleteIcon, kDownIcon, kPlayIcon, kUpIcon, kAddIcon} from "./icons";
 const kCoarse = 2;
 const kSmallStep = 0.1;
 const kLargeStep = 0.5;
-
-export interface KeyframeActions {
-  /** Takes the pose that the robot is in. */
-  capture(index: number): void;
-  /** Lets the robot go to the pose. */
-  show(index: number): void;
-}
 
 /** The next shorter or longer time, s. @param direction -1 or 1. */
 export function steppedTime(time: number, direction: number): number {
@@ -40,8 +34,7 @@ export class KeyframeList {
   private readonly rows: Row[] = [];
   private opened = -1;
 
-  constructor(private readonly store: Store, private readonly editor: DraftEditor,
-              private readonly act: KeyframeActions) {
+  constructor(private readonly store: Store, private readonly editor: DraftEditor, private readonly teach: Teach) {
     store.watch((state) => state.draft, () => this.show());
     store.watch((state) => state.motionFault, () => this.show());
   }
@@ -91,8 +84,8 @@ export class KeyframeList {
     const more = el("div", {class: "pose-more"},
       el("div", {class: "row"}, el("span", {}, say("motion.pause")), pause.element),
       el("div", {class: "pose-buttons"}, up, down,
-         iconButton("button small", kPlayIcon, say("motion.show"), () => this.act.show(index)),
-         iconButton("button small", kAddIcon, say("motion.capture"), () => this.act.capture(index)),
+         iconButton("button small", kPlayIcon, say("motion.show"), () => this.teach.play(onlyKeyframe(this.editor.draft, index))),
+         iconButton("button small", kAddIcon, say("motion.capture"), () => this.teach.capture(index)),
          iconButton("button small", kDeleteIcon, say("motion.remove"), () =>
              this.editor.change(removeKeyframe(this.editor.draft, index)))));
     const element = el("li", {}, el("div", {class: "pose-row"}, title, duration.element), more);

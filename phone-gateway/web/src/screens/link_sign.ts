@@ -23,8 +23,7 @@ export function linkSign(store: Store, messages: Messages): HTMLButtonElement {
     sign.dataset["quality"] = linkQuality(state);
     sign.setAttribute("aria-label", linkInWords(state));
   };
-  store.watch((state) => state.latencyMs, show);
-  store.watch(ageWhileSilent, show);
+  store.watch((state) => `${state.latencyMs} ${ageWhileSilent(state)}`, show);
   return sign;
 }
 

@@ -62,8 +62,8 @@ export class MenuSheet {
   }
 }
 
-function switchRow(label: string, help: string, isOn: boolean, isDisabled: boolean,
-                   changed: (input: HTMLInputElement) => void): HTMLElement {
+export function switchRow(label: string, help: string, isOn: boolean, isDisabled: boolean,
+                          changed: (input: HTMLInputElement) => void): HTMLElement {
   const input = el("input", {type: "checkbox", role: "switch", checked: isOn, disabled: isDisabled,
                              onchange: () => changed(input)});
   return el("label", {class: "row"},

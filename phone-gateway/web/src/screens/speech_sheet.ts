@@ -8,6 +8,7 @@ import type {Store} from "../store";
 import {getLanguage, say, sayName} from "../text/texts";
 import type {TextKey} from "../text/texts";
 import {kCloseIcon} from "./icons";
+import {switchRow} from "./menu_sheet";
 import {sheet} from "./sheet";
 
 const kMaxBytes = 1000;
@@ -37,8 +38,6 @@ export class SpeechSheet {
     }});
     this.language = el("select", {"aria-label": say("speech.language"), onchange: () => keep({language: this.language.value})});
     this.which = el("select", {});
-    const playing = el("input", {type: "checkbox", role: "switch", checked: store.get().speech.isPlaying,
-                                 onchange: () => keep({isPlaying: playing.checked})});
     this.lights = el("section", {class: "lights"},
       el("label", {class: "row"}, el("span", {}, say("lights.which")), this.which),
       el("div", {class: "swatches", role: "group", "aria-label": say("lights.title")},
@@ -50,8 +49,8 @@ export class SpeechSheet {
          el("button", {class: "button speech-save", onclick: () => this.keepText()}, say("speech.save"))),
       this.phrases,
       el("label", {class: "row"}, el("span", {}, say("speech.language")), this.language),
-      el("label", {class: "row"}, el("span", {}, say("speech.here"),
-                                     el("small", {class: "quiet"}, say("speech.hereHelp"))), playing),
+      switchRow(say("speech.here"), say("speech.hereHelp"), store.get().speech.isPlaying, false,
+                ({checked}) => keep({isPlaying: checked})),
       el("h3", {}, say("lights.title")), this.lights);
     store.watch(({speech}) => speech.phrases, () => this.showPhrases());
     store.watch(({robot}) => robot, (robot) => {

@@ -7,18 +7,10 @@ import type {State} from "../protocol/generated/remote_pb";
 import type {MotionFault, Store} from "../store";
 import {keyframeAt} from "../teach/motion_draft";
 import {kTemporaryName} from "../teach/motion_name";
+import type {Teach} from "../teach/teach";
 import {say} from "../text/texts";
 import {kAddIcon, kListIcon, kPlayIcon, kSaveIcon} from "./icons";
 import {Note} from "./note";
-
-export interface TeachBarActions {
-  addPose(): void;
-  play(): void;
-  /** Opens the sheet of motions. */
-  open(): void;
-  /** Takes the repaired motion of the fault shown. */
-  repair(): void;
-}
 
 export class TeachBar {
   readonly element: HTMLElement;
@@ -30,12 +22,12 @@ export class TeachBar {
   private readonly open: HTMLButtonElement;
   private current = -1;
 
-  constructor(private readonly store: Store, private readonly act: TeachBarActions) {
-    this.play = iconButton("button small teach-play", kPlayIcon, this.playText, () => act.play());
-    this.open = button({class: "button small teach-open"}, () => act.open());
+  constructor(private readonly store: Store, private readonly teach: Teach) {
+    this.play = iconButton("button small teach-play", kPlayIcon, this.playText, () => teach.play());
+    this.open = button({class: "button small teach-open"}, () => teach.sheet.open());
     this.element = el("section", {class: "teach-bar", "aria-label": say("teach.bar")}, this.fault.element, this.status, this.dots,
       el("div", {class: "teach-buttons"},
-         iconButton("button small teach-add", kAddIcon, say("teach.add"), () => act.addPose()), this.play, this.open));
+         iconButton("button small teach-add", kAddIcon, say("teach.add"), () => teach.addPose()), this.play, this.open));
     store.watch((state) => state.draft.keyframes.length, (number) => this.showNumber(number));
     store.watch((state) => state.isCheckingMotion, (isChecking) => this.showChecking(isChecking));
     store.watch((state) => state.motionFault, (fault) => this.showFault(fault));
@@ -65,7 +57,7 @@ export class TeachBar {
     const shown = fault?.isUpload ? null : fault;
     for (const [i, dot] of [...this.dots.children].entries()) dot.classList.toggle("bad", i === shown?.keyframe);
     this.fault.hide();
-    if (shown) this.fault.tellFault(shown, () => this.act.repair());
+    if (shown) this.fault.tellFault(shown, () => this.teach.repair());
   }
 
   /** Marks the pose that the robot goes to while the draft is played. */
