@@ -54,6 +54,8 @@ const kStateRateHz = 60;
 const kImageRateHz = 15;
 /** By Bluetooth, 100 kbit/s: 20 states a second also while an image is sent. */
 const kNarrowStateRateHz = 25;
+/** Hosts that let a page in without a token. */
+const kLoopback = ["localhost", "127.0.0.1", "[::1]"];
 const kNarrowImage = {rate: 1, width: 160, quality: 30};
 
 export class App implements Actions {
@@ -186,7 +188,7 @@ export class App implements Actions {
     void loadFieldLines(location.href).then((lines) => {
       if (!lines) return;
       this.stage.floor.setField(lines);
-      this.perception.setField(lines);
+      this.perception.map.setField(lines);
       this.stage.outdate();
     });
     this.store.watch((state) => `${state.phase} ${state.problem} ${state.isFormOpen} ${state.isChoosingRobot} ${state.loading.done} ${state.loading.error}`,
@@ -205,7 +207,9 @@ export class App implements Actions {
       } else {
         this.wakeLock.release();
       }
-      if (phase === "idle" || phase === "waiting") void this.showNearby();
+      if (phase === "idle" || phase === "waiting") {
+        void findGateways(location.href).then((gateways) => this.connectionScreen.showNearby(gateways));
+      }
     });
   }
 
@@ -225,10 +229,6 @@ export class App implements Actions {
     this.stage.outdate();
   }
 
-  private async showNearby(): Promise<void> {
-    this.connectionScreen.showNearby(await findGateways(location.href));
-  }
-
   /** A link with a token, or an address used before, connects at once. */
   private openFromUrl(): void {
     const known = this.settings.recent.find((recent) => recent.address === location.host);
@@ -237,7 +237,7 @@ export class App implements Actions {
     // The token does not stay in sight, nor in a screenshot of the address bar.
     if (fromUrl) history.replaceState(null, "", location.pathname);
     this.connectionScreen.fill(location.host, this.token, this.settings);
-    if (fromUrl || known || isLoopback(location.hostname)) this.open();
+    if (fromUrl || known || kLoopback.includes(location.hostname)) this.open();
   }
 
   connect({address, token, clientName}: ConnectionForm, device: BluetoothDevice | null = null): void {
@@ -452,8 +452,4 @@ export class App implements Actions {
       this.teach.sheet.element.close();
     }
   }
-}
-
-function isLoopback(host: string): boolean {
-  return host === "localhost" || host === "127.0.0.1" || host === "[::1]";
 }

@@ -43,6 +43,10 @@ export interface Identity {
   clientSoftware: string;
 }
 
+/** What a refused Connect says; every other error: what answers is not a robot. */
+const kProblems: {readonly [error in ErrorCode]?: Problem} = {
+  [ErrorCode.WRONG_TOKEN]: "wrong-token", [ErrorCode.WRONG_VERSION]: "wrong-version", [ErrorCode.TOO_MANY_CLIENTS]: "too-many"};
+
 /** Problems that another attempt would not solve. */
 const kFinalProblems: readonly Problem[] = ["wrong-token", "wrong-version"];
 
@@ -148,7 +152,7 @@ export class Connection {
       void this.greet(attempt);
     } else {
       // A wrong token says the problem's own sentence; that it must wait, only the gateway knows.
-      this.failed(problemOf(response.error), response.reasonCode === "token-wrong" ? "" : reasonInWords(response));
+      this.failed(kProblems[response.error] ?? "not-a-robot", response.reasonCode === "token-wrong" ? "" : reasonInWords(response));
     }
   }
 
@@ -283,12 +287,8 @@ export class Connection {
   }
 
   private async closed(wasOpen: boolean, attempt: number): Promise<void> {
-    if (wasOpen) {
-      // After Connect the link broke; before, the host is not a gateway.
-      const problem = this.store.get().phase === "connected" ? "closed" : "not-a-robot";
-      this.failed(problem, this.closingReason);
-      return;
-    }
+    // After Connect the link broke; before, the host is not a gateway.
+    if (wasOpen) return this.failed(this.store.get().phase === "connected" ? "closed" : "not-a-robot", this.closingReason);
     const answers = await this.transport.somethingAnswers();
     if (attempt === this.attempt) this.failed(answers ? "not-a-robot" : this.unreachable());
   }
@@ -328,14 +328,5 @@ export class Connection {
     const waiting = [...this.pending.values()];
     this.pending.clear();
     for (const resolve of waiting) resolve(null);
-  }
-}
-
-function problemOf(error: ErrorCode): Problem {
-  switch (error) {
-    case ErrorCode.WRONG_TOKEN: return "wrong-token";
-    case ErrorCode.WRONG_VERSION: return "wrong-version";
-    case ErrorCode.TOO_MANY_CLIENTS: return "too-many";
-    default: return "not-a-robot";
   }
 }

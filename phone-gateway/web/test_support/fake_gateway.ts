@@ -212,8 +212,6 @@ export class FakeGateway {
         this.target.splice(0, this.target.length, ...this.angle);
         this.drive = {vx: 0, vy: 0, wz: 0};
         return answer(pb.ErrorCode.OK);
-      case "listMotions":
-        return answer(pb.ErrorCode.OK, "", {case: "motions", value: {names: this.motions.names}});
       case "getMotion": {
         const file = this.motions.get(useCase.value.name);
         return file ? answer(pb.ErrorCode.OK, "", {case: "motionFile", value: file})

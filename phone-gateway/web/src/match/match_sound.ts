@@ -11,15 +11,12 @@ const kFanfare: readonly Tone[] = [[523, 0, 0.14], [659, 0.15, 0.14], [784, 0.3,
 const kVolume = 0.12;
 const kFade = 0.03;
 
+const kTones: {readonly [event in Match_Event]?: readonly Tone[]} = {
+  [Match_Event.GOAL]: kFanfare, [Match_Event.KICK_OFF]: kWhistle, [Match_Event.BALL_OUT]: kWhistle,
+  [Match_Event.HALF_END]: kFinalWhistle, [Match_Event.MATCH_END]: kFinalWhistle};
+
 export function tonesOf(event: Match_Event): readonly Tone[] {
-  switch (event) {
-    case Match_Event.GOAL: return kFanfare;
-    case Match_Event.KICK_OFF:
-    case Match_Event.BALL_OUT: return kWhistle;
-    case Match_Event.HALF_END:
-    case Match_Event.MATCH_END: return kFinalWhistle;
-    default: return [];
-  }
+  return kTones[event] ?? [];
 }
 
 /** @param context  null while there is no sound. */

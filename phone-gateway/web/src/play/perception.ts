@@ -2,7 +2,6 @@
 import type {ImageView} from "../controls/image_view";
 import {Offer} from "../controls/offer";
 import {Play_Behavior} from "../protocol/generated/remote_pb";
-import type {FieldLines} from "../robot/floor";
 import type {Stage} from "../robot/stage";
 import type {Actions} from "../screens/actions";
 import type {Store} from "../store";
@@ -36,10 +35,6 @@ export class Perception {
       this.map.show(vision, store.get().state);
     });
     store.watch((state) => state.playState?.behavior ?? Play_Behavior.NONE, () => this.choice.clear());
-  }
-
-  setField(lines: FieldLines): void {
-    this.map.setField(lines);
   }
 
   /** A tap on the stage, px from its top left. @return true if it met the ball. */

@@ -31,9 +31,7 @@ export class WalkHere {
     this.offer.show(x, y, this.stage.canvas.clientWidth);
   }
 
-  clear(): void {
-    this.offer.clear();
-  }
+  readonly clear = (): void => this.offer.clear();
 
   private forget(): void {
     this.spot = null;
