@@ -196,8 +196,17 @@ export class App implements Actions {
     window.addEventListener("online", () => this.connection.retryNow());
     listenToLeaving({
       blurred: () => void this.held.release(),
-      hidden: () => this.hidden(),
-      shown: () => this.shown(),
+      // Nobody sees the robot any more: it does nothing by itself either.
+      hidden: () => {
+        this.held.release();
+        this.play.letGo();
+        this.subscribe();
+      },
+      shown: () => {
+        void this.wakeLock.renew();
+        this.connection.retryNow();
+        this.subscribe();
+      },
     });
     this.openFromUrl();
     this.store.watch((state) => state.phase, (phase) => {
@@ -299,24 +308,16 @@ export class App implements Actions {
       stateRate, imageRate, image, audio: this.store.get().speech.isPlaying && !isNarrow, playState: true, vision: !isHidden}});
   }
 
-  private shown(): void {
-    void this.wakeLock.renew();
-    this.connection.retryNow();
-    this.subscribe();
-  }
-
   /** @return true if the robot looks different from the last frame. */
   private frame(dt: number): boolean {
-    if (this.view.hasPose && !this.isShown) this.markShown();
+    if (this.view.hasPose && !this.isShown) {
+      this.isShown = true;
+      // For measurements: the robot is drawn in its pose for the first time.
+      performance.mark("robot-shown");
+      void registerOfflineShell();
+    }
     this.held.poll();
     return this.view.step(dt);
-  }
-
-  /** The robot is drawn in its pose for the first time. The mark is for measurements. */
-  private markShown(): void {
-    this.isShown = true;
-    performance.mark("robot-shown");
-    void registerOfflineShell();
   }
 
   private tapped(x: number, y: number): void {
@@ -426,13 +427,6 @@ export class App implements Actions {
 
   private get settings(): Settings {
     return this.store.get().settings;
-  }
-
-  /** Nobody sees the robot any more: it does nothing by itself either. */
-  private hidden(): void {
-    this.held.release();
-    this.play.letGo();
-    this.subscribe();
   }
 
   private chooseScreen(): void {

@@ -5,12 +5,14 @@ export type Attributes = Record<string, string | number | boolean | ((event: nev
 
 export type Child = Node | string | null;
 
-export function el<K extends keyof HTMLElementTagNameMap>(tag: K, attributes: Attributes = {}, ...children: Child[]): HTMLElementTagNameMap[K] {
+export function el<K extends keyof HTMLElementTagNameMap>(
+    tag: K, attributes: Attributes = {}, ...children: Child[]): HTMLElementTagNameMap[K] {
   return complete(document.createElement(tag), attributes, children);
 }
 
 /** The same for a shape of a drawing. */
-export function shape<K extends keyof SVGElementTagNameMap>(tag: K, attributes: Attributes, ...children: Child[]): SVGElementTagNameMap[K] {
+export function shape<K extends keyof SVGElementTagNameMap>(
+    tag: K, attributes: Attributes, ...children: Child[]): SVGElementTagNameMap[K] {
   return complete(document.createElementNS("http://www.w3.org/2000/svg", tag), attributes, children);
 }
 

@@ -26,7 +26,8 @@ export class FakeMotions {
 
   /** Saves a motion if it is safe. @return the answer. */
   save({motion: file, replace}: pb.SaveMotion): MessageInitShape<typeof pb.ResponseSchema> {
-    const answer = (report: MessageInitShape<typeof pb.MotionReportSchema>) => ({case: "motionReport" as const, value: {keyframe: -1, ...report}});
+    const answer = (report: MessageInitShape<typeof pb.MotionReportSchema>) =>
+        ({case: "motionReport" as const, value: {keyframe: -1, ...report}});
     const refuse = (error: pb.ErrorCode, reasonCode: string, message: string, reasonArguments: string[] = [], report = {}) =>
         ({error, message, reasonCode, reasonArguments, result: answer(report)});
     const motion = motionOf(file);

@@ -11,15 +11,13 @@ import {behaviorName} from "./play_words";
 const kOffered = [Play_Behavior.SCORE, Play_Behavior.KEEP_GOAL, Play_Behavior.GO_TO_BALL, Play_Behavior.KICK, Play_Behavior.DRIBBLE];
 
 export class PlayStrip {
-  readonly element: HTMLElement;
-  private readonly strip: ChoiceStrip;
+  private readonly strip = new ChoiceStrip(say("play.strip"), "play-strip", (name) => this.chosen(name));
+  readonly element = this.strip.element;
   /** The behaviour that this page has begun last: its end is reported. */
   private begun: Play_Behavior = Play_Behavior.NONE;
 
   constructor(private readonly store: Store, private readonly commander: Commander,
               private readonly messages: Messages) {
-    this.strip = new ChoiceStrip(say("play.strip"), "play-strip", (name) => this.chosen(name));
-    this.element = this.strip.element;
     this.strip.setChoices(kOffered.map(behaviorName).map((name) => ({name, label: say(`play.${name}`)})));
     store.watch((state) => state.playState !== null, (isThere) => this.element.hidden = !isThere);
     store.watch((state) => state.playState?.behavior ?? Play_Behavior.NONE,

@@ -9,7 +9,8 @@ export class LinkDrag {
   private readonly offset = new Vector3();
 
   /** @param x,y  where the finger is, px from the canvas's top left. */
-  constructor(link: Object3D, private readonly torso: Object3D, private readonly stage: Pick<Stage, "camera" | "rayAt">, x: number, y: number) {
+  constructor(link: Object3D, private readonly torso: Object3D, private readonly stage: Pick<Stage, "camera" | "rayAt">,
+              x: number, y: number) {
     const held = link.getWorldPosition(new Vector3());
     this.plane = new Plane().setFromNormalAndCoplanarPoint(stage.camera.getWorldDirection(new Vector3()), held);
     // The link does not jump under the finger: what was between them stays between them.

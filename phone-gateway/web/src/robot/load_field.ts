@@ -1,7 +1,8 @@
 /** The lines of the field, from the scene file that simulator and camera read too. */
 import type {FieldLines} from "./floor";
 
-const kKeys = ["length", "width", "lineWidth", "centreCircleDiameter", "penaltyAreaLength", "penaltyAreaWidth"] as const satisfies readonly (keyof FieldLines)[];
+const kKeys: readonly (keyof FieldLines)[] =
+    ["length", "width", "lineWidth", "centreCircleDiameter", "penaltyAreaLength", "penaltyAreaWidth"];
 
 /** Lines in a scene file: "key: number" below "field:". Null if it has no field, or not all of it.
  * A whole YAML parser would cost more than the lines are worth. */

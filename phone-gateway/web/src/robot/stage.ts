@@ -4,6 +4,7 @@ import {
   ACESFilmicToneMapping, DirectionalLight, Group, HemisphereLight, PCFShadowMap,
   PerspectiveCamera, Plane, Raycaster, Scene, Vector2, Vector3, WebGLRenderer,
 } from "three";
+import type {Object3D} from "three";
 import type {JointGroup} from "../protocol/generated/remote_pb";
 import {openDrawingContext} from "./drawing_context";
 import {Floor} from "./floor";
@@ -57,14 +58,6 @@ const kShadowDepth = 7;
 
 const kGround = new Plane(new Vector3(0, 1, 0));
 
-/** A part of the canvas, px from its top left. */
-export interface FreeArea {
-  left: number;
-  top: number;
-  right: number;
-  bottom: number;
-}
-
 export class Stage {
   readonly orbit = new Orbit(kDriveView);
   readonly floor = new Floor();
@@ -95,10 +88,11 @@ export class Stage {
   private isSharp = false;
   private width = 1;
   private height = 1;
-  private freeArea: FreeArea | null = null;
+  private freeArea: DOMRect | null = null;
   private readonly eye = new Vector3();
   private readonly drawnEye = new Vector3();
   private readonly drawnFocus = new Vector3();
+  private readonly place = new Vector3();
 
   constructor(readonly canvas: HTMLCanvasElement) {
     const {gl, isSoftware} = openDrawingContext(canvas);
@@ -253,8 +247,8 @@ export class Stage {
     return this.robot ? groupAt(this.robot, groups, this.rayAt(x, y), this.robotHeight) : "";
   }
 
-  /** Places the robot in the middle of an area, as large as fits; null: of all. */
-  setFreeArea(area: FreeArea | null): void {
+  /** Places the robot in the middle of an area, px from the canvas's top left, as large as fits; null: of all. */
+  setFreeArea(area: DOMRect | null): void {
     this.freeArea = area;
     this.frameRobot();
   }
@@ -278,6 +272,12 @@ export class Stage {
     return [(x + 1) / 2 * this.width, (1 - y) / 2 * this.height];
   };
 
+  /** True for what stands nearer to the eye than the robot. */
+  isBeforeRobot(object: Object3D): boolean {
+    const distance = (one: Object3D) => one.getWorldPosition(this.place).distanceTo(this.camera.position);
+    return this.robot !== null && distance(object) < distance(this.robot.torso);
+  }
+
   /** A point of the canvas on the page, px from its top left. */
   onPage(x: number, y: number): [number, number] {
     const {left, top} = this.canvas.getBoundingClientRect();
@@ -293,9 +293,9 @@ export class Stage {
 
   private frameRobot(): void {
     const {width, height, camera} = this;
-    const area = this.freeArea ?? {left: 0, top: 0, right: width, bottom: height};
-    const freeWidth = Math.max(area.right - area.left, 0.2 * width);
-    const freeHeight = Math.max(area.bottom - area.top, 0.2 * height);
+    const area = this.freeArea ?? new DOMRect(0, 0, width, height);
+    const freeWidth = Math.max(area.width, 0.2 * width);
+    const freeHeight = Math.max(area.height, 0.2 * height);
     const pixelsPerMetre = Math.min(freeWidth / (kShownWidth * this.robotHeight),
                                     freeHeight / (kShownHeight * this.robotHeight));
     const tangent = Math.tan((kFieldOfViewDeg * Math.PI) / 360);

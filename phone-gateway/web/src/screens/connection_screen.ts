@@ -19,14 +19,12 @@ export class ConnectionScreen {
     clientName: field("client-name", "text", say("connection.namePlaceholder"))};
   private readonly problem = el("div", {class: "problem", role: "alert", hidden: true});
   private readonly submit = el("button", {class: "button primary", type: "submit"});
-  private readonly cancel: HTMLButtonElement;
+  private readonly cancel = el("button", {class: "button", type: "button", onclick: () => this.act.leave()}, say("connection.cancel"));
   private readonly recent = el("ul", {class: "recent", "aria-label": say("connection.recent")});
   private readonly nearby = el("ul", {class: "recent nearby", "aria-label": say("connection.nearby"), hidden: true});
   private countdown: ReturnType<typeof setInterval> | undefined;
 
   constructor(private readonly store: Store, private readonly act: Actions) {
-    this.cancel = el("button", {class: "button", type: "button", onclick: () => act.leave()},
-                     say("connection.cancel"));
     const form = el("form", {class: "card", onsubmit: (event: Event) => this.submitted(event),
                              onpaste: () => setTimeout(() => this.read())},
       el("header", {}, el("img", {class: "logo", src: "icon.svg", alt: ""}),

@@ -8,7 +8,6 @@ import type {WalkSender} from "../controls/walk_sender";
 import {el, icon} from "../dom";
 import type {Messages} from "../messages";
 import type {PlayStrip} from "../play/play_strip";
-import type {FreeArea} from "../robot/stage";
 import type {RobotDescription} from "../protocol/generated/remote_pb";
 import type {Store} from "../store";
 import {say} from "../text/texts";
@@ -69,13 +68,12 @@ export class ControllerScreen {
   }
 
   /** Calls `changed` with the part of the 3D view where the robot is to be, px, now and whenever it is another; null: all. */
-  observeFreeArea(changed: (area: FreeArea | null) => void): void {
+  observeFreeArea(changed: (area: DOMRect | null) => void): void {
     const measure = (): void => {
       const view = this.view.getBoundingClientRect();
       const free = this.free.getBoundingClientRect();
       if (view.width === 0) return;
-      changed(this.image.isLarge ? null : {left: free.left - view.left, top: free.top - view.top,
-                                          right: free.right - view.left, bottom: free.bottom - view.top});
+      changed(this.image.isLarge ? null : new DOMRect(free.left - view.left, free.top - view.top, free.width, free.height));
     };
     const observer = new ResizeObserver(measure);
     for (const part of [this.view, this.free]) observer.observe(part);

@@ -19,13 +19,15 @@ const kAtLimit = 0.012;
 
 export class JointsPanel {
   readonly element: HTMLElement;
-  private readonly stick: Joystick;
-  private readonly strip: ChoiceStrip;
+  private readonly stick = new Joystick(say("joints.move"), "joint", false, () => this.driver.setStick(this.stick.value),
+                                        ["W", "A", "S", "D"]);
+  private readonly strip = new ChoiceStrip(say("joints.groups"), "groups", (selectedGroup) => this.store.set({selectedGroup}));
   private readonly name = el("strong", {class: "joint-name"});
   private readonly angles = el("dl", {class: "angles"});
   private readonly roll = el("input", {type: "range", step: "any", "aria-label": say("joints.roll")});
-  private readonly rollRow: HTMLElement;
-  private readonly both: HTMLButtonElement;
+  private readonly rollRow = paint("roll", el("label", {class: "roll"},
+                                              el("span", {class: "joystick-label"}, say("joints.roll")), this.roll));
+  private readonly both = button({class: "button small", "aria-pressed": "false"}, () => this.toggleBoth(), say("joints.both"));
   private readonly relax: HTMLButtonElement;
   /** Roll that was sent last while the slider is held, rad; NaN while it is free. */
   private heldRoll = NaN;
@@ -36,14 +38,9 @@ export class JointsPanel {
 
   /** @param reset  takes the robot back to its ready posture. */
   constructor(private readonly store: Store, private readonly driver: JointDriver, teach: Teach, reset: () => void) {
-    this.stick = new Joystick(say("joints.move"), "joint", false, () => driver.setStick(this.stick.value), ["W", "A", "S", "D"]);
-    this.strip = new ChoiceStrip(say("joints.groups"), "groups", (selectedGroup) => store.set({selectedGroup}));
-    this.both = button({class: "button small", "aria-pressed": "false"}, () => this.toggleBoth(), say("joints.both"));
     this.relax = button({class: "button small relax", title: say("teach.relaxHelp")},
                         () => driver.group && void teach.relax(driver.group.name), say("teach.relax"));
     const ready = button({class: "button small"}, reset, say("joints.reset"));
-    this.rollRow = paint("roll", el("label", {class: "roll"},
-                                    el("span", {class: "joystick-label"}, say("joints.roll")), this.roll));
     this.roll.addEventListener("pointerdown", () => this.heldRoll = this.roll.valueAsNumber);
     this.roll.addEventListener("input", () => this.rollChanged());
     for (const type of ["pointerup", "pointercancel", "change", "blur"]) {

@@ -21,22 +21,20 @@ const kSpeedStep = 0.1;
 export class MotionSheet {
   readonly element: HTMLDialogElement;
   private readonly name = el("input", {name: "motion-name", maxlength: 40, autocomplete: "off", enterkeyhint: "done"});
-  private readonly save: HTMLButtonElement;
+  private readonly save = el("button", {class: "button primary", type: "submit"}, say("teach.save"));
   private readonly note = new Note();
   private readonly draft: HTMLElement;
   private readonly none = el("p", {class: "quiet"}, say("motion.none"));
   private readonly speed = new Stepper(say("motion.speed"), false, (direction) => this.changeSpeed(direction));
   private readonly repeat = new Stepper(say("motion.repeat"), false, (direction) =>
       this.editor.change(setRepetitions(this.editor.draft, this.editor.draft.repetitions + direction)));
-  private readonly undo: HTMLButtonElement;
+  private readonly undo = iconButton("button small", kUndoIcon, say("motion.undo"), () => this.editor.undo());
   private readonly length = el("small", {class: "quiet"});
   private readonly isDraftShown = () => this.store.get().draft.keyframes.length > 0;
 
   constructor(private readonly store: Store, private readonly editor: DraftEditor, private readonly host: MotionHost,
               private readonly teach: Teach) {
-    this.save = el("button", {class: "button primary", type: "submit"}, say("teach.save"));
     this.name.addEventListener("input", () => this.editor.note({...this.editor.draft, name: this.name.value}));
-    this.undo = iconButton("button small", kUndoIcon, say("motion.undo"), () => editor.undo());
     this.draft = this.makeDraft();
     const saved = new SavedList(store, editor, host, () => this.element.close(), () => this.element.scrollTop = 0);
     const stop = el("button", {class: "button small stop-small"}, icon(kStopIcon), say("drive.stop"));

@@ -22,10 +22,11 @@ export class SpeechSheet {
   readonly element: HTMLDialogElement;
   private readonly text: HTMLTextAreaElement;
   private readonly fault = el("p", {class: "speech-fault", role: "alert", hidden: true});
-  private readonly language: HTMLSelectElement;
+  private readonly language = el("select", {"aria-label": say("speech.language"),
+                                            onchange: () => this.keep({language: this.language.value})});
   private readonly phrases = el("ul", {class: "phrases", "aria-label": say("speech.phrases")});
   private readonly lights: HTMLElement;
-  private readonly which: HTMLSelectElement;
+  private readonly which = el("select");
 
   /** @param keep  remembers settings. */
   constructor(private readonly store: Store, private readonly commander: Commander,
@@ -36,8 +37,6 @@ export class SpeechSheet {
       event.preventDefault();
       this.sayText();
     }});
-    this.language = el("select", {"aria-label": say("speech.language"), onchange: () => keep({language: this.language.value})});
-    this.which = el("select", {});
     this.lights = el("section", {class: "lights"},
       el("label", {class: "row"}, el("span", {}, say("lights.which")), this.which),
       el("div", {class: "swatches", role: "group", "aria-label": say("lights.title")},

@@ -17,14 +17,12 @@ export class TeachBar {
   private readonly fault = new Note();
   private readonly dots = el("ol", {class: "pose-dots", tabindex: 0, "aria-label": say("teach.poses")});
   private readonly status = el("p", {class: "unseen", role: "status"});
-  private readonly play: HTMLButtonElement;
   private readonly playText = el("span", {}, say("teach.play"));
-  private readonly open: HTMLButtonElement;
+  private readonly play = iconButton("button small teach-play", kPlayIcon, this.playText, () => this.teach.play());
+  private readonly open = button({class: "button small teach-open"}, () => this.teach.sheet.open());
   private current = -1;
 
   constructor(private readonly store: Store, private readonly teach: Teach) {
-    this.play = iconButton("button small teach-play", kPlayIcon, this.playText, () => teach.play());
-    this.open = button({class: "button small teach-open"}, () => teach.sheet.open());
     this.element = el("section", {class: "teach-bar", "aria-label": say("teach.bar")}, this.fault.element, this.status, this.dots,
       el("div", {class: "teach-buttons"},
          iconButton("button small teach-add", kAddIcon, say("teach.add"), () => teach.addPose()), this.play, this.open));
