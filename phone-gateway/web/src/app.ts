@@ -9,7 +9,7 @@ import {ImageView} from "./controls/image_view";
 import type {Drive} from "./controls/stick";
 import {TiltSensor} from "./controls/tilt_sensor";
 import {WalkSender} from "./controls/walk_sender";
-import {exposeAutomation} from "./automation";
+import {automationOf} from "./automation";
 import {el} from "./dom";
 import {reloadButton} from "./screens/reload_button";
 import {listenToLeaving} from "./leaving";
@@ -30,8 +30,7 @@ import {ConnectionScreen} from "./screens/connection_screen";
 import {causeBar} from "./screens/cause";
 import {ControllerScreen} from "./screens/controller_screen";
 import {JointsPanel} from "./screens/joints_panel";
-import {linkInWords, linkQuality} from "./screens/link_sign";
-import {LoadingScreen} from "./screens/loading_screen";
+import {loadingScreen} from "./screens/loading_screen";
 import {messageList} from "./screens/message_list";
 import {MenuSheet} from "./screens/menu_sheet";
 import {WalkHere} from "./screens/walk_here";
@@ -45,7 +44,6 @@ import {Teach} from "./teach/teach";
 import {bodyInWords} from "./text/body";
 import {findGateways} from "./nearby";
 import {say} from "./text/texts";
-import type {Language} from "./text/texts";
 import {GatewayTransport} from "./relay/gateway_transport";
 import {kRefusalPattern, kTapPattern, vibrate} from "./vibrate";
 import {WakeLock} from "./wake_lock";
@@ -56,9 +54,9 @@ const kStateRateHz = 60;
 const kImageRateHz = 15;
 /** By Bluetooth, 100 kbit/s: 20 states a second also while an image is sent. */
 const kNarrowStateRateHz = 25;
+/** Hosts that let a page in without a token. */
+const kLoopback = ["localhost", "127.0.0.1", "[::1]"];
 const kNarrowImage = {rate: 1, width: 160, quality: 30};
-
-type ScreenName = "loading" | "connection" | "lobby" | "controller";
 
 export class App implements Actions {
   private readonly store = new Store();
@@ -92,7 +90,8 @@ export class App implements Actions {
   private isShown = false;
   private isVisiting = false;
 
-  constructor(private readonly root: HTMLElement, private settings: Settings) {
+  constructor(private readonly root: HTMLElement, settings: Settings) {
+    this.store.set({settings});
     this.connection = new Connection(
         this.transport, this.store, {
           connected: () => void this.connected(),
@@ -110,8 +109,6 @@ export class App implements Actions {
           },
           notice: (notice) => this.commander.notice(notice),
           audio: (audio) => this.speech.play(audio),
-          playState: (playState) => this.store.set({playState}),
-          vision: (vision) => this.store.set({vision}),
         });
     this.commander = new Commander(this.connection, this.store, this.messages);
     this.walk = new WalkSender((drive, isLocked) => this.sendWalk(drive, isLocked));
@@ -145,25 +142,19 @@ export class App implements Actions {
     };
     this.speech = new Speech(this.store, this.commander, this.stage, storage(), this.sound, () => this.subscribe());
     this.connectionScreen = new ConnectionScreen(this.store, this);
-    const joints = new JointsPanel(this.store, this.jointDriver, this.teach.bar, {
-      reset: () => void this.teach.leave().then(() => this.goToPosture(this.store.get().robot?.readyPosture)),
-      relax: (group) => void this.teach.relax(group),
-    });
+    const joints = new JointsPanel(this.store, this.jointDriver, this.teach, () =>
+        void this.teach.leave().then(() => this.goToPosture(this.store.get().robot?.readyPosture)));
     this.play = new PlayStrip(this.store, this.commander, this.messages);
-    this.perception = new Perception(this.store, this.stage, this.image, this.play, settings.hasBoxes,
-                                     (hasBoxes) => this.keep({hasBoxes}));
+    this.perception = new Perception(this.store, this.stage, this.image, this.play, this);
     const view = el("div", {class: "view"}, canvas, this.walkHere.element, lost);
     const notes = el("div", {class: "notes"}, causeBar(this.store, this.commander, this));
     this.controllerScreen = new ControllerScreen(this.store, this.commander, this.walk, view, this.image, joints, this.tilt,
-                                                 this.play, this.perception.map.element, notes, this);
-    if (!settings.hasWalked) this.controllerScreen.showHint();
-    this.image.onSwap = (isLarge) => this.controllerScreen.showCameraLarge(isLarge);
-    this.controllerScreen.setSwapped(settings.isSwapped);
+                                                 this.play, this.perception.map.element, notes, this.messages, this);
     this.menu = new MenuSheet(settings.isSwapped, this);
     this.lobby = new Lobby(this.store, this.commander, this.messages, this);
     const messages = messageList(this.store);
     this.store.watch((state) => state.isChoosingRobot, (isLobby) => (isLobby ? this.lobby.screen.element : notes).append(messages));
-    root.append(new LoadingScreen(this.store, () => void this.view.load()).element,
+    root.append(loadingScreen(this.store, () => void this.view.load()),
                 this.connectionScreen.element, this.lobby.screen.element, this.controllerScreen.element,
                 this.menu.element, this.speech.sheet.element, this.teach.sheet.element,
                 this.perception.choice.element);
@@ -171,7 +162,7 @@ export class App implements Actions {
   }
 
   start(): void {
-    exposeAutomation(this.store, this.stage, this.image, this.view, this.perception.objects);
+    window.naoRemote = automationOf(this.store, this.stage, this.image, this.view, this.perception.objects);
     new MatchEvents(this.store, this.messages, this.sound);
     this.store.watch((state) => state.imageAgeMs, (ageMs) => this.image.showAge(ageMs));
     this.store.watch(isStale, (isOn) => this.root.classList.toggle("stale", isOn));
@@ -197,7 +188,7 @@ export class App implements Actions {
     void loadFieldLines(location.href).then((lines) => {
       if (!lines) return;
       this.stage.floor.setField(lines);
-      this.perception.setField(lines);
+      this.perception.map.setField(lines);
       this.stage.outdate();
     });
     this.store.watch((state) => `${state.phase} ${state.problem} ${state.isFormOpen} ${state.isChoosingRobot} ${state.loading.done} ${state.loading.error}`,
@@ -205,8 +196,17 @@ export class App implements Actions {
     window.addEventListener("online", () => this.connection.retryNow());
     listenToLeaving({
       blurred: () => void this.held.release(),
-      hidden: () => this.hidden(),
-      shown: () => this.shown(),
+      // Nobody sees the robot any more: it does nothing by itself either.
+      hidden: () => {
+        this.held.release();
+        this.play.letGo();
+        this.subscribe();
+      },
+      shown: () => {
+        void this.wakeLock.renew();
+        this.connection.retryNow();
+        this.subscribe();
+      },
     });
     this.openFromUrl();
     this.store.watch((state) => state.phase, (phase) => {
@@ -216,7 +216,9 @@ export class App implements Actions {
       } else {
         this.wakeLock.release();
       }
-      if (phase === "idle" || phase === "waiting") void this.showNearby();
+      if (phase === "idle" || phase === "waiting") {
+        void findGateways(location.href).then((gateways) => this.connectionScreen.showNearby(gateways));
+      }
     });
   }
 
@@ -236,10 +238,6 @@ export class App implements Actions {
     this.stage.outdate();
   }
 
-  private async showNearby(): Promise<void> {
-    this.connectionScreen.showNearby(await findGateways(location.href));
-  }
-
   /** A link with a token, or an address used before, connects at once. */
   private openFromUrl(): void {
     const known = this.settings.recent.find((recent) => recent.address === location.host);
@@ -248,24 +246,17 @@ export class App implements Actions {
     // The token does not stay in sight, nor in a screenshot of the address bar.
     if (fromUrl) history.replaceState(null, "", location.pathname);
     this.connectionScreen.fill(location.host, this.token, this.settings);
-    if (fromUrl || known || isLoopback(location.hostname)) this.open();
+    if (fromUrl || known || kLoopback.includes(location.hostname)) this.open();
   }
 
-  connect({address, token, clientName}: ConnectionForm): void {
-    this.keep({clientName});
-    this.token = token;
-    this.transport.device = null;
-    const url = pageUrl(address, token);
-    // Another robot's page comes from that robot: its gateway lets no foreign page in.
-    if (url && url.host !== location.host) location.assign(url);
-    else this.open();
-  }
-
-  connectByBluetooth({token, clientName}: ConnectionForm, device: BluetoothDevice): void {
+  connect({address, token, clientName}: ConnectionForm, device: BluetoothDevice | null = null): void {
     this.keep({clientName});
     this.token = token;
     this.transport.device = device;
-    this.open();
+    const url = device ? null : pageUrl(address, token);
+    // Another robot's page comes from that robot: its gateway lets no foreign page in.
+    if (url && url.host !== location.host) location.assign(url);
+    else this.open();
   }
 
   private open(): void {
@@ -314,27 +305,19 @@ export class App implements Actions {
         {camera, width: this.image.isLarge ? 640 : 320};
     const [stateRate, imageRate] = isHidden ? [0, 0] : isNarrow ? [kNarrowStateRateHz, kNarrowImage.rate] : [kStateRateHz, kImageRateHz];
     void this.connection.request({case: "subscribe", value: {
-      stateRate, imageRate, image, audio: this.speech.isPlaying && !isNarrow, playState: true, vision: !isHidden}});
-  }
-
-  private shown(): void {
-    void this.wakeLock.renew();
-    this.connection.retryNow();
-    this.subscribe();
+      stateRate, imageRate, image, audio: this.store.get().speech.isPlaying && !isNarrow, playState: true, vision: !isHidden}});
   }
 
   /** @return true if the robot looks different from the last frame. */
   private frame(dt: number): boolean {
-    if (this.view.hasPose && !this.isShown) this.markShown();
+    if (this.view.hasPose && !this.isShown) {
+      this.isShown = true;
+      // For measurements: the robot is drawn in its pose for the first time.
+      performance.mark("robot-shown");
+      void registerOfflineShell();
+    }
     this.held.poll();
     return this.view.step(dt);
-  }
-
-  /** The robot is drawn in its pose for the first time. The mark is for measurements. */
-  private markShown(): void {
-    this.isShown = true;
-    performance.mark("robot-shown");
-    void registerOfflineShell();
   }
 
   private tapped(x: number, y: number): void {
@@ -415,21 +398,8 @@ export class App implements Actions {
     if (group) this.commander.stream({case: "changeJoints", value: {group, yaw, pitch, roll: 0}});
   }
 
-  openForm(): void {
-    this.store.set({isFormOpen: true});
-  }
-
   changeRobot(): void {
     this.lobby.open();
-  }
-
-  walked(): void {
-    this.keep({hasWalked: true});
-  }
-
-  setSwapped(isSwapped: boolean): void {
-    this.keep({isSwapped});
-    this.controllerScreen.setSwapped(isSwapped);
   }
 
   openMenu(): void {
@@ -446,33 +416,17 @@ export class App implements Actions {
   async setTilt(isOn: boolean): Promise<boolean> {
     const isTilting = isOn && (await this.tilt.switchOn());
     if (!isTilting) this.tilt.switchOff();
-    this.controllerScreen.setTilt(isTilting);
+    this.store.set({isTilting});
     return isTilting;
   }
 
-  /** Words are put in place once; another language starts the page again, which connects by itself. */
-  setLanguage(language: Language): void {
-    this.keep({language});
-    this.held.release();
-    location.reload();
-  }
-
-  explainLink(): void {
-    const state = this.store.get();
-    const words = linkInWords(state);
-    this.messages.show("info", linkQuality(state) === "poor" ? `${words}. ${say("drive.linkPoor")}` : words);
-  }
-
-  private keep(settings: Partial<Settings>): void {
-    this.settings = {...this.settings, ...settings};
+  keep(settings: Partial<Settings>): void {
+    this.store.set({settings: {...this.settings, ...settings}});
     saveSettings(storage(), this.settings);
   }
 
-  /** Nobody sees the robot any more: it does nothing by itself either. */
-  private hidden(): void {
-    this.held.release();
-    this.play.letGo();
-    this.subscribe();
+  private get settings(): Settings {
+    return this.store.get().settings;
   }
 
   private chooseScreen(): void {
@@ -480,7 +434,7 @@ export class App implements Actions {
     const isLoaded = loading.total > 0 && loading.done === loading.total;
     // What was seen of a robot stays in sight; its cause bar says why nothing new comes.
     const hasRobot = robot !== null && !isFormOpen && (phase !== "idle" || problem !== null);
-    const screen: ScreenName = phase !== "connected" && !hasRobot ? "connection" : isChoosingRobot ? "lobby" :
+    const screen = phase !== "connected" && !hasRobot ? "connection" : isChoosingRobot ? "lobby" :
         isLoaded ? "controller" : "loading";
     if (this.root.dataset["screen"] === screen) return;
     this.root.dataset["screen"] = screen;
@@ -492,8 +446,4 @@ export class App implements Actions {
       this.teach.sheet.element.close();
     }
   }
-}
-
-function isLoopback(host: string): boolean {
-  return host === "localhost" || host === "127.0.0.1" || host === "[::1]";
 }

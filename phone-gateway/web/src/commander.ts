@@ -3,6 +3,7 @@ import type {Messages} from "./messages";
 import type {UseCase} from "./protocol/codec";
 import {ErrorCode, Notice_Component, Notice_Kind, Notice_Status} from "./protocol/generated/remote_pb";
 import type {Notice, Response} from "./protocol/generated/remote_pb";
+import {nameOf} from "./protocol/names";
 import type {Store} from "./store";
 import {reasonInWords, say} from "./text/texts";
 
@@ -11,13 +12,6 @@ export interface Requester {
   request(useCase: UseCase): Promise<Response | null>;
   isCongested(): boolean;
 }
-
-/** Parts of text keys. */
-const kComponentNames: Record<Notice_Component, "motion" | "robot" | "camera"> = {
-  [Notice_Component.MOTION]: "motion",
-  [Notice_Component.ROBOT]: "robot",
-  [Notice_Component.CAMERA]: "camera",
-};
 
 /** Motions that end a walk; joints turn beside it. */
 const kEndsWalk: readonly UseCase["case"][] = ["goToPosture", "doAction", "moveTo", "play"];
@@ -113,12 +107,8 @@ export class Commander {
   private haveControl(): Promise<boolean> {
     const control = this.store.get().control;
     if (control?.isMine) return Promise.resolve(true);
-    if (control?.isMuted) {
-      this.messages.show("info", say("control.muted"));
-      return Promise.resolve(false);
-    }
-    if (control && control.driverId !== 0) {
-      this.messages.show("info", say("control.other", {name: control.driverName}));
+    if (control?.isMuted || control?.driverId) {
+      this.messages.show("info", control.isMuted ? say("control.muted") : say("control.other", {name: control.driverName}));
       return Promise.resolve(false);
     }
     // Two controls touched at once send one request.
@@ -187,7 +177,7 @@ export class Commander {
   private componentChanged({component, isAvailable}: Notice): void {
     const others = this.store.get().unavailableComponents.filter((other) => other !== component);
     this.store.set({unavailableComponents: isAvailable ? others : [...others, component]});
-    const name = kComponentNames[component];
+    const name = nameOf(Notice_Component, component, "robot");
     this.messages.show(isAvailable ? "good" : "bad",
                        say(isAvailable ? `component.${name}.back` : `component.${name}`));
   }

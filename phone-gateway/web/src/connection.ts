@@ -5,7 +5,7 @@ import {decodeServerMessage, encodeRequest, kProtocolVersion} from "./protocol/c
 import type {UseCase} from "./protocol/codec";
 import {ErrorCode, Notice_Kind} from "./protocol/generated/remote_pb";
 import type {
-  Audio, Connected, Control, Notice, Image, PlayState, Response, RobotDescription, State, Vision,
+  Audio, Connected, Control, Notice, Image, Response, RobotDescription, State,
 } from "./protocol/generated/remote_pb";
 import {SecondConnection} from "./second_connection";
 import type {Problem, Store} from "./store";
@@ -35,8 +35,6 @@ export interface ConnectionListener {
   image(image: Image): void;
   notice(notice: Notice): void;
   audio?(audio: Audio): void;
-  playState?(state: PlayState): void;
-  vision?(vision: Vision): void;
 }
 
 export interface Identity {
@@ -44,6 +42,10 @@ export interface Identity {
   clientName: string;
   clientSoftware: string;
 }
+
+/** What a refused Connect says; every other error: what answers is not a robot. */
+const kProblems: {readonly [error in ErrorCode]?: Problem} = {
+  [ErrorCode.WRONG_TOKEN]: "wrong-token", [ErrorCode.WRONG_VERSION]: "wrong-version", [ErrorCode.TOO_MANY_CLIENTS]: "too-many"};
 
 /** Problems that another attempt would not solve. */
 const kFinalProblems: readonly Problem[] = ["wrong-token", "wrong-version"];
@@ -150,7 +152,7 @@ export class Connection {
       void this.greet(attempt);
     } else {
       // A wrong token says the problem's own sentence; that it must wait, only the gateway knows.
-      this.failed(problemOf(response.error), response.reasonCode === "token-wrong" ? "" : reasonInWords(response));
+      this.failed(kProblems[response.error] ?? "not-a-robot", response.reasonCode === "token-wrong" ? "" : reasonInWords(response));
     }
   }
 
@@ -234,8 +236,8 @@ export class Connection {
 
   /** A message over either connection. */
   private handle(bytes: Uint8Array): void {
-    const {message} = decodeServerMessage(bytes) ?? {message: {case: undefined}};
-    switch (message.case) {
+    const message = decodeServerMessage(bytes)?.message;
+    switch (message?.case) {
       case "response": {
         const resolve = this.pending.get(message.value.requestId);
         this.pending.delete(message.value.requestId);
@@ -257,9 +259,8 @@ export class Connection {
         break;
       case "notice": this.noticed(message.value); break;
       case "audio": this.listener.audio?.(message.value); break;
-      case "playState": this.listener.playState?.(message.value); break;
-      case "vision": this.listener.vision?.(message.value); break;
-      case undefined: break;
+      case "playState": this.store.set({playState: message.value}); break;
+      case "vision": this.store.set({vision: message.value}); break;
     }
   }
 
@@ -286,12 +287,8 @@ export class Connection {
   }
 
   private async closed(wasOpen: boolean, attempt: number): Promise<void> {
-    if (wasOpen) {
-      // After Connect the link broke; before, the host is not a gateway.
-      const problem = this.store.get().phase === "connected" ? "closed" : "not-a-robot";
-      this.failed(problem, this.closingReason);
-      return;
-    }
+    // After Connect the link broke; before, the host is not a gateway.
+    if (wasOpen) return this.failed(this.store.get().phase === "connected" ? "closed" : "not-a-robot", this.closingReason);
     const answers = await this.transport.somethingAnswers();
     if (attempt === this.attempt) this.failed(answers ? "not-a-robot" : this.unreachable());
   }
@@ -331,14 +328,5 @@ export class Connection {
     const waiting = [...this.pending.values()];
     this.pending.clear();
     for (const resolve of waiting) resolve(null);
-  }
-}
-
-function problemOf(error: ErrorCode): Problem {
-  switch (error) {
-    case ErrorCode.WRONG_TOKEN: return "wrong-token";
-    case ErrorCode.WRONG_VERSION: return "wrong-version";
-    case ErrorCode.TOO_MANY_CLIENTS: return "too-many";
-    default: return "not-a-robot";
   }
 }

@@ -1,15 +1,22 @@
 /** Makes elements in one expression: el("button", {class: "stop"}, "Stop"). */
 
+/** True: present; false or undefined: absent; a function under "onclick" and the like: a listener. */
 export type Attributes = Record<string, string | number | boolean | ((event: never) => void) | undefined>;
 
 export type Child = Node | string | null;
 
-/** @param attributes  true: present; false or undefined: absent; a function under "onclick" and the
- * like: a listener. */
 export function el<K extends keyof HTMLElementTagNameMap>(
-    tag: K, attributes: Attributes = {},
-    ...children: Child[]): HTMLElementTagNameMap[K] {
-  const element = document.createElement(tag);
+    tag: K, attributes: Attributes = {}, ...children: Child[]): HTMLElementTagNameMap[K] {
+  return complete(document.createElement(tag), attributes, children);
+}
+
+/** The same for a shape of a drawing. */
+export function shape<K extends keyof SVGElementTagNameMap>(
+    tag: K, attributes: Attributes, ...children: Child[]): SVGElementTagNameMap[K] {
+  return complete(document.createElementNS("http://www.w3.org/2000/svg", tag), attributes, children);
+}
+
+function complete<E extends Element>(element: E, attributes: Attributes, children: readonly Child[]): E {
   for (const [name, value] of Object.entries(attributes)) {
     if (typeof value === "function") {
       element.addEventListener(name.replace(/^on/, ""), value as EventListener);
@@ -18,15 +25,6 @@ export function el<K extends keyof HTMLElementTagNameMap>(
     }
   }
   element.append(...children.filter((child) => child !== null));
-  return element;
-}
-
-/** The same for a shape of a drawing. */
-export function shape<K extends keyof SVGElementTagNameMap>(
-    tag: K, attributes: Record<string, string | number>, ...children: Node[]): SVGElementTagNameMap[K] {
-  const element = document.createElementNS("http://www.w3.org/2000/svg", tag);
-  for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, String(value));
-  element.append(...children);
   return element;
 }
 
@@ -39,6 +37,11 @@ export function drawing(path: string, size: number, className: string): SVGSVGEl
 /** An icon drawn with lines in a 24x24 box. */
 export function icon(path: string): SVGSVGElement {
   return drawing(path, 24, "icon");
+}
+
+/** "#3d9bff" of 0x3d9bff. */
+export function cssColor(rgb: number): string {
+  return `#${rgb.toString(16).padStart(6, "0")}`;
 }
 
 /** Leaves the page alone where nothing changes: states come 60 times a second. */

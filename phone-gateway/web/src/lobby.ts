@@ -11,13 +11,9 @@ export class Lobby {
   /** Name of the robot that the person has asked for last. */
   private chosen = "";
 
-  constructor(private readonly store: Store, commander: Commander, private readonly messages: Messages,
+  constructor(private readonly store: Store, private readonly commander: Commander, private readonly messages: Messages,
               private readonly act: Actions) {
-    this.screen = new LobbyScreen(store, {
-      drive: (robot) => void this.choose(robot, commander.takeControl(robot)),
-      watch: (robot) => void this.choose(robot, commander.watchRobot(robot)),
-      leave: () => act.leave(),
-    });
+    this.screen = new LobbyScreen(store, this, act);
     // Also when the operator has assigned a robot to this phone.
     store.watch((state) => state.control?.isMine ?? false, (isMine) => {
       if (isMine) this.close();
@@ -40,9 +36,10 @@ export class Lobby {
     if (robot && robot.name !== this.chosen) this.messages.show("info", say("lobby.changed", {name: robot.name}));
   }
 
-  private async choose(robot: string, isGranted: Promise<boolean>): Promise<void> {
+  /** Drives a robot, or only watches it. */
+  async choose(robot: string, isDriver: boolean): Promise<void> {
     this.chosen = robot;
-    if (await isGranted) this.close();
+    if (await (isDriver ? this.commander.takeControl(robot) : this.commander.watchRobot(robot))) this.close();
   }
 
   private close(): void {

@@ -24,14 +24,14 @@ export interface Settings {
   recent: Recent[];
 }
 
-const kDefaults: Settings = {
+export const kDefaultSettings: Settings = {
   clientName: "", language: "", isSwapped: false, hasWalked: false, hasBoxes: true, recent: [],
 };
 
 /** Reads the settings; those that another version wrote badly count as not there. */
 export function loadSettings(storage: Storage | null): Settings {
   const found = recall<Settings>(storage, kKey) ?? {};
-  return {...kDefaults, ...found, recent: Array.isArray(found.recent) ? found.recent.filter(isRecent) : []};
+  return {...kDefaultSettings, ...found, recent: Array.isArray(found.recent) ? found.recent.filter(isRecent) : []};
 }
 
 export function saveSettings(storage: Storage | null, settings: Settings): void {

@@ -3,6 +3,8 @@ import type {
   Control, Exhibition, Joint, Match, Motion, Notice, Notice_Component, Image, PlayState, RobotDescription, RobotList_Robot, State, Vision,
 } from "./protocol/generated/remote_pb";
 import type {Postures} from "./robot/posture_file";
+import {kDefaultSettings} from "./settings";
+import type {SpeechSettings} from "./speech/speech_settings";
 import {kEmptyDraft} from "./teach/motion_draft";
 import type {Pose} from "./teach/motion_draft";
 
@@ -84,6 +86,11 @@ const kInitialState = {
   /** What is known of the robot's postures, and a drawing of each. */
   postures: new Map() as Postures,
   drawings: new Map() as ReadonlyMap<string, HTMLCanvasElement>,
+  /** What the phone remembers. */
+  settings: kDefaultSettings,
+  speech: {phrases: null, language: "", isPlaying: false} as SpeechSettings,
+  /** True: tilting the phone walks the robot. */
+  isTilting: false,
   /** The form for address and code is asked for, over the view of before. */
   isFormOpen: false,
   /** True in joints mode, false in drive mode. */

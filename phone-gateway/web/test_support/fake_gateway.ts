@@ -2,6 +2,7 @@
  * moves the joints of an imaginary robot straight to where they are sent. For tests of the app and
  * for work on it where nothing else is built; what the real gateway does is its own tests' business. */
 import {create, fromBinary, toBinary} from "@bufbuild/protobuf";
+import type {MessageInitShape} from "@bufbuild/protobuf";
 import {createServer} from "node:http";
 import type {IncomingMessage, Server, ServerResponse} from "node:http";
 import {readFile} from "node:fs/promises";
@@ -70,6 +71,10 @@ export interface FakeGatewayOptions {
   /** True: it is one of several robots, in a match. */
   hasMatch?: boolean;
 }
+
+/** What it sends, with the fields that are not zero. */
+type Message = MessageInitShape<typeof pb.ServerMessageSchema>["message"];
+type Result = MessageInitShape<typeof pb.ResponseSchema>["result"];
 
 interface Phone {
   id: number;
@@ -143,10 +148,8 @@ export class FakeGateway {
   }
 
   /** Says something unasked to every phone. */
-  notice(notice: Parameters<typeof create<typeof pb.NoticeSchema>>[1]): void {
-    for (const phone of this.phones) {
-      send(phone, {case: "notice", value: create(pb.NoticeSchema, notice)});
-    }
+  notice(notice: MessageInitShape<typeof pb.NoticeSchema>): void {
+    for (const phone of this.phones) send(phone, {case: "notice", value: notice});
   }
 
   private async serve(request: IncomingMessage, response: ServerResponse): Promise<void> {
@@ -176,9 +179,8 @@ export class FakeGateway {
   private receive(phone: Phone, request: pb.Request): void {
     this.received.push(request);
     const {requestId} = request;
-    const answer = (error: pb.ErrorCode, message = "", result?: pb.Response["result"]): void =>
-        send(phone, {case: "response",
-                     value: create(pb.ResponseSchema, {requestId, error, message, result})});
+    const answer = (error: pb.ErrorCode, message = "", result?: Result): void =>
+        send(phone, {case: "response", value: {requestId, error, message, result}});
     const {useCase} = request;
     if (useCase.case === "connect") return this.connect(phone, useCase.value, answer);
     if (!phone.isConnected) return answer(pb.ErrorCode.NOT_CONNECTED, "Connect first.");
@@ -188,8 +190,7 @@ export class FakeGateway {
         phone.images = useCase.value.imageRate > 0;
         return answer(pb.ErrorCode.OK);
       case "ping":
-        return answer(pb.ErrorCode.OK, "", {case: "pong", value: create(pb.PongSchema, {
-          clientUtime: useCase.value.clientUtime, numClients: this.phones.size})});
+        return answer(pb.ErrorCode.OK, "", {case: "pong", value: {clientUtime: useCase.value.clientUtime, numClients: this.phones.size}});
       case "takeControl":
         if (this.driverId !== 0 && this.driverId !== phone.id) {
           if (useCase.value.wait && this.nextId === 0) {
@@ -211,8 +212,6 @@ export class FakeGateway {
         this.target.splice(0, this.target.length, ...this.angle);
         this.drive = {vx: 0, vy: 0, wz: 0};
         return answer(pb.ErrorCode.OK);
-      case "listMotions":
-        return answer(pb.ErrorCode.OK, "", {case: "motions", value: create(pb.MotionListSchema, {names: this.motions.names})});
       case "getMotion": {
         const file = this.motions.get(useCase.value.name);
         return file ? answer(pb.ErrorCode.OK, "", {case: "motionFile", value: file})
@@ -226,9 +225,7 @@ export class FakeGateway {
   /** Answers later than other requests, as the real gateway does: checking takes some time. */
   private saveMotion(phone: Phone, requestId: number, request: pb.SaveMotion): void {
     setTimeout(() => {
-      const {report, ...rest} = this.motions.save(request);
-      send(phone, {case: "response", value: create(pb.ResponseSchema, {
-        requestId, ...rest, result: {case: "motionReport", value: report}})});
+      send(phone, {case: "response", value: {requestId, ...this.motions.save(request)}});
       this.tellMotions();
     }, kCheckMs);
   }
@@ -289,8 +286,7 @@ export class FakeGateway {
     }
     answer(pb.ErrorCode.OK);
     if (useCase.case === "goToPosture" || useCase.case === "doAction" || useCase.case === "say") {
-      send(phone, {case: "notice", value: create(pb.NoticeSchema, {
-        kind: pb.Notice_Kind.COMMAND_RESULT, requestId, status: pb.Notice_Status.ACCEPTED})});
+      send(phone, {case: "notice", value: {kind: pb.Notice_Kind.COMMAND_RESULT, requestId, status: pb.Notice_Status.ACCEPTED}});
     }
   }
 
@@ -298,20 +294,19 @@ export class FakeGateway {
   private sendPlay(): void {
     const utime = BigInt(Math.round(this.time * 1e6));
     const isPlaying = this.behavior !== pb.Play_Behavior.NONE;
-    const playState = create(pb.PlayStateSchema, {
-      utime, behavior: this.behavior, phase: isPlaying ? pb.PlayState_Phase.APPROACH : pb.PlayState_Phase.IDLE});
+    const phase = isPlaying ? pb.PlayState_Phase.APPROACH : pb.PlayState_Phase.IDLE;
     const kind = pb.Vision_Detection_Kind;
-    const vision = create(pb.VisionSchema, {
+    const vision = {
       utime, camera: "top",
       detections: [{kind: kind.BALL, box: [0.6, 0.6, 0.7, 0.74], position: [0.5, -0.2]},
                    {kind: kind.ROBOT, box: [0.1, 0.2, 0.3, 0.8], position: [0.7, 0.4], covariance: [0.01, 0, 0.002]},
                    {kind: kind.LINE, box: [0, 0.4, 1, 0.5], line: [0, 0.5, 1, 0.4], position: [0.6, 0.5, 0.8, -0.5]}],
       ball: {...kBall, age: 0.1, covariance: [0.004, 0, 0.001]},
       fieldPose: {x: this.x - 2, y: this.y, theta: this.heading, covariance: [0.02, 0.005, 0.01, 0.001]},
-    });
+    };
     for (const phone of this.phones) {
       if (!phone.isConnected) continue;
-      send(phone, {case: "playState", value: playState});
+      send(phone, {case: "playState", value: {utime, behavior: this.behavior, phase}});
       send(phone, {case: "vision", value: vision});
     }
   }
@@ -324,15 +319,14 @@ export class FakeGateway {
   }
 
   private connect(phone: Phone, {protocolVersion, token, clientName}: pb.Connect,
-                  answer: (error: pb.ErrorCode, message?: string,
-                           result?: pb.Response["result"]) => void): void {
+                  answer: (error: pb.ErrorCode, message?: string, result?: Result) => void): void {
     if (protocolVersion !== 1) return answer(pb.ErrorCode.WRONG_VERSION, "This gateway speaks 1.");
     if (token !== this.options.token) return answer(pb.ErrorCode.WRONG_TOKEN, "");
     phone.name = clientName || `Phone ${phone.id}`;
     phone.isConnected = true;
     const {joints, jointGroups, postures, actionRoles, labels} = this.options;
     const [readyPosture, standPosture, restPosture] = ["StandInit", "Stand", "Crouch"];
-    answer(pb.ErrorCode.OK, "", {case: "connected", value: create(pb.ConnectedSchema, {
+    answer(pb.ErrorCode.OK, "", {case: "connected", value: {
       protocolVersion: 1, serverVersion: "fake", clientId: phone.id, clientName: phone.name,
       control: this.control(phone),
       ...(this.options.hasMatch ? kMatch : {}),
@@ -343,7 +337,7 @@ export class FakeGateway {
               postures: Object.keys(postures), maxVx: 0.2, minVx: -0.2, maxVy: 0.15, maxWz: 1,
               model: "nao", cameras: ["top", "bottom"], languages: ["en", "de", "es", "fr", "it", "pt"],
               lights: kLights},
-    })});
+    }});
   }
 
   private control(phone: Phone): pb.Control {
@@ -365,8 +359,7 @@ export class FakeGateway {
   private tellControl(): void {
     for (const phone of this.phones) {
       if (!phone.isConnected) continue;
-      send(phone, {case: "notice", value: create(pb.NoticeSchema, {
-        kind: pb.Notice_Kind.CONTROL_CHANGED, control: this.control(phone)})});
+      send(phone, {case: "notice", value: {kind: pb.Notice_Kind.CONTROL_CHANGED, control: this.control(phone)}});
     }
   }
 
@@ -384,13 +377,13 @@ export class FakeGateway {
     this.x += (this.drive.vx * c - this.drive.vy * s) * dt;
     this.y += (this.drive.vx * s + this.drive.vy * c) * dt;
     const isWalking = this.drive.vx !== 0 || this.drive.vy !== 0 || this.drive.wz !== 0;
-    const state = create(pb.StateSchema, {
+    const state = {
       utime: BigInt(Math.round(this.time * 1e6)), ageMs: 4, jointPosition: this.angle,
       torsoOrientation: orientationOf(this.heading, this.pitch),
       torsoPosition: [this.x, this.y, this.height],
       mode: isWalking ? pb.Mode.WALKING : this.mode, posture: isWalking ? "" : this.posture,
       ...activity, stiffness: 1, lightRgb: this.lightRgb,
-    });
+    };
     for (const phone of this.phones) if (phone.states) send(phone, {case: "state", value: state});
   }
 
@@ -411,11 +404,8 @@ export class FakeGateway {
   private sendImage(): void {
     const jpeg = this.options.image?.(this.time);
     if (!jpeg) return;
-    const image = create(pb.ImageSchema, {utime: BigInt(Math.round(this.time * 1e6)), ageMs: 20,
-                                              camera: "top", width: 320, height: 240, jpeg});
-    for (const phone of this.phones) {
-      if (phone.images) send(phone, {case: "image", value: image});
-    }
+    const image = {utime: BigInt(Math.round(this.time * 1e6)), ageMs: 20, camera: "top", width: 320, height: 240, jpeg};
+    for (const phone of this.phones) if (phone.images) send(phone, {case: "image", value: image});
   }
 }
 
@@ -426,6 +416,6 @@ function orientationOf(heading: number, pitch: number): number[] {
   return [c * cp, -s * sp, c * sp, s * cp];
 }
 
-function send(phone: Phone, message: pb.ServerMessage["message"]): void {
+function send(phone: Phone, message: Message): void {
   phone.socket.send(toBinary(pb.ServerMessageSchema, create(pb.ServerMessageSchema, {message})));
 }

@@ -1,18 +1,11 @@
 /** Motions of the fake gateway: checks them for speed only, keeps them in memory, and says where they are at a
  * time. Files are JSON, which is YAML as well. */
 import {create, fromJsonString, toJsonString} from "@bufbuild/protobuf";
+import type {MessageInitShape} from "@bufbuild/protobuf";
 import * as pb from "../src/protocol/generated/remote_pb";
 
 /** Fastest that an imaginary joint turns, rad/s. */
 const kMaxVelocity = 4;
-
-export interface CheckResult {
-  error: pb.ErrorCode;
-  message: string;
-  reasonCode: string;
-  reasonArguments: string[];
-  report: pb.MotionReport;
-}
 
 export class FakeMotions {
   private readonly saved = new Map<string, pb.Motion>();
@@ -31,12 +24,12 @@ export class FakeMotions {
     return this.saved.delete(name);
   }
 
-  /** Saves a motion if it is safe. */
-  save({motion: file, replace}: pb.SaveMotion): CheckResult {
-    const report = create(pb.MotionReportSchema, {isSafe: true, keyframe: -1});
-    const refuse = (error: pb.ErrorCode, reasonCode: string, message: string,
-                    reasonArguments: string[] = []): CheckResult =>
-        ({error, message, reasonCode, reasonArguments, report: {...report, isSafe: false}});
+  /** Saves a motion if it is safe. @return the answer. */
+  save({motion: file, replace}: pb.SaveMotion): MessageInitShape<typeof pb.ResponseSchema> {
+    const answer = (report: MessageInitShape<typeof pb.MotionReportSchema>) =>
+        ({case: "motionReport" as const, value: {keyframe: -1, ...report}});
+    const refuse = (error: pb.ErrorCode, reasonCode: string, message: string, reasonArguments: string[] = [], report = {}) =>
+        ({error, message, reasonCode, reasonArguments, result: answer(report)});
     const motion = motionOf(file);
     if (!motion) return refuse(pb.ErrorCode.INVALID_ARGUMENT, "motion-malformed", "The file is not a motion.");
     const {name} = motion;
@@ -49,12 +42,11 @@ export class FakeMotions {
       const repaired = create(pb.MotionSchema, {...motion, keyframes: motion.keyframes.map((one, i) => (
         {...one, duration: Math.max(one.duration, Math.ceil(slow[i]! * 10) / 10)}))});
       const seconds = repaired.keyframes[keyframe]!.duration.toFixed(1);
-      const result = refuse(pb.ErrorCode.INVALID_ARGUMENT, "motion-too-fast",
-                            `A joint needs at least ${seconds} s to this keyframe.`, ["A joint", seconds]);
-      return {...result, report: create(pb.MotionReportSchema, {keyframe, repaired, repair: "slowed-down"})};
+      return refuse(pb.ErrorCode.INVALID_ARGUMENT, "motion-too-fast", `A joint needs at least ${seconds} s to this keyframe.`,
+                    ["A joint", seconds], {keyframe, repaired, repair: "slowed-down"});
     }
     this.saved.set(name, motion);
-    return {error: pb.ErrorCode.OK, message: "", reasonCode: "", reasonArguments: [], report};
+    return {result: answer({isSafe: true})};
   }
 
   /** Time of all repetitions, s; 0 for an unknown motion. */

@@ -137,11 +137,11 @@ test("a pose that comes too fast is named, and a tap on the slower motion repair
   const shorter = phone.page.locator(".keyframes li").nth(2).locator(".pose-row .stepper .round").first();
   for (let i = 0; i < 30 && (await keyframes(phone))[2].duration > 0.101; i++) await shorter.tap();
   await phone.page.locator(".draft-buttons .button").first().tap();
-  await phone.page.locator(".teach-fault").waitFor({timeout: kCheckMs});
-  assert.match(await phone.page.locator(".teach-fault p").textContent(), /^Pose 3: /);
+  await phone.page.locator(".teach-bar .note").waitFor({timeout: kCheckMs});
+  assert.match(await phone.page.locator(".teach-bar .note p").textContent(), /^Pose 3: /);
   assert.equal(await phone.page.locator(".pose-dots .bad").textContent(), "3");
   assert.equal(await isActing(phone), false);
-  await tap(phone, ".teach-fault .primary");
+  await tap(phone, ".teach-bar .note .primary");
   await until("the pose has more time", async () => (await keyframes(phone))[2].duration > 0.101);
   await tap(phone, ".teach-play");
   await acts(phone);

@@ -14,8 +14,9 @@ export class ChoiceStrip {
   private readonly buttons = new Map<string, HTMLButtonElement>();
   private drawings: ReadonlyMap<string, HTMLCanvasElement> = new Map();
 
-  constructor(label: string, private readonly choose: (name: string) => void) {
-    this.element = el("div", {class: "strip", role: "group", "aria-label": label});
+  /** @param className  of style sheets. */
+  constructor(label: string, className: string, private readonly choose: (name: string) => void) {
+    this.element = el("div", {class: `strip ${className}`, role: "group", "aria-label": label});
   }
 
   setChoices(choices: readonly Choice[]): void {

@@ -22,18 +22,10 @@ const kCameraIcon = "M4 8h3l2-2h6l2 2h3v11H4zM12 16.5a3.5 3.5 0 1 0 0-7 3.5 3.5 
 const kShownAgeMs = 300;
 const kGreyAgeMs = 500;
 
-/** A tap on the image: fractions of its size, and px on the page. */
-export interface ImageTap {
-  x: number;
-  y: number;
-  pageX: number;
-  pageY: number;
-}
-
 export class ImageView {
   readonly element: HTMLElement;
-  /** A tap that this handles does not change the image's size. */
-  onTap: (tap: ImageTap) => boolean = () => false;
+  /** A tap that this handles does not change the image's size. x, y: fractions of it; pageX, pageY: px on the page. */
+  onTap: (x: number, y: number, pageX: number, pageY: number) => boolean = () => false;
   /** Called when it has become the large view, or the small one. */
   onSwap: (isLarge: boolean) => void = () => {};
   /** Images drawn so far. */
@@ -57,7 +49,8 @@ export class ImageView {
               private readonly look: (yaw: number, pitch: number) => void) {
     this.enlarge = el("button", {
       class: "image-main",
-      onclick: (event: MouseEvent) => this.clicked(event),
+      // By keyboard.
+      onclick: (event: MouseEvent) => event.detail === 0 && this.swap(),
       onpointerdown: (event: PointerEvent) => this.dragStarts(event),
       onpointermove: (event: PointerEvent) => this.dragged(event),
       onpointerup: (event: PointerEvent) => this.lifted(event),
@@ -147,13 +140,8 @@ export class ImageView {
   private lifted(event: PointerEvent): void {
     if (!this.drag || event.pointerId !== this.drag.pointer || this.drag.travel >= kTapTravel) return;
     const box = this.canvas.getBoundingClientRect();
-    const tap = {x: (event.clientX - box.left) / box.width, y: (event.clientY - box.top) / box.height,
-                 pageX: event.clientX, pageY: event.clientY};
-    if (!this.onTap(tap)) this.swap();
-  }
-
-  private clicked(event: MouseEvent): void {
-    if (event.detail === 0) this.swap(); // by keyboard
+    const {clientX, clientY} = event;
+    if (!this.onTap((clientX - box.left) / box.width, (clientY - box.top) / box.height, clientX, clientY)) this.swap();
   }
 
   /** The large view becomes the small one, and the other way round. */

@@ -1,5 +1,5 @@
 /** Keyboard and gamepad to the same commands as the joysticks; pure. */
-import {stickValue} from "./stick";
+import {addDrives, stickValue} from "./stick";
 import type {Drive, StickValue} from "./stick";
 
 /** Keys that walk, by their place on the keyboard, and what each adds to the drive. */
@@ -17,19 +17,10 @@ export function isDriveKey(code: string): boolean {
 
 /** What the held keys ask for; null if none of them walks. `isSlow`: Shift is held. */
 export function driveFromKeys(held: ReadonlySet<string>, isSlow: boolean): Drive | null {
-  const sum: Drive = {x: 0, y: 0, theta: 0};
-  let isAny = false;
-  for (const code of held) {
-    const drive = kDriveKeys[code];
-    if (!drive) continue;
-    isAny = true;
-    sum.x += drive.x;
-    sum.y += drive.y;
-    sum.theta += drive.theta;
-  }
+  const drives = [...held].flatMap((code) => kDriveKeys[code] ?? []);
+  const {x, y, theta} = addDrives(drives);
   const scale = isSlow ? 0.4 : 1;
-  const cut = (value: number) => Math.min(1, Math.max(-1, value)) * scale;
-  return isAny ? {x: cut(sum.x), y: cut(sum.y), theta: cut(sum.theta)} : null;
+  return drives.length > 0 ? {x: x * scale, y: y * scale, theta: theta * scale} : null;
 }
 
 /** The same keys on a joint: where the pad would be. */
@@ -72,11 +63,7 @@ export function sticksFromPad(axes: readonly number[]): PadSticks {
 
 /** Buttons that went down since the last look. @param before  is brought up to date. */
 export function pressedButtons(pressed: readonly boolean[], before: boolean[]): PadButton[] {
-  const found: PadButton[] = [];
-  pressed.forEach((isPressed, i) => {
-    const button = kPadButtons[i];
-    if (isPressed && !before[i] && button) found.push(button);
-    before[i] = isPressed;
-  });
+  const found = pressed.flatMap((isPressed, i) => isPressed && !before[i] ? kPadButtons[i] ?? [] : []);
+  before.splice(0, Infinity, ...pressed);
   return found;
 }

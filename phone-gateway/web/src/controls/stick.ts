@@ -1,4 +1,5 @@
 /** From a touch position on a round pad to a command; pure. */
+import {clamp} from "../clamp";
 
 /** Dead zone, fraction of the radius: fingers tremble. */
 export const kDeadZone = 0.12;
@@ -28,8 +29,6 @@ export interface Drive {
   theta: number;
 }
 
-export const kNoDrive: Drive = {x: 0, y: 0, theta: 0};
-
 /** Up on the walk stick is ahead, right is to the right; right on the turn stick turns right. */
 export function driveFromSticks(walk: StickValue, turn: StickValue): Drive {
   return {x: unsigned(walk.up), y: unsigned(-walk.right), theta: unsigned(-turn.right)};
@@ -37,15 +36,9 @@ export function driveFromSticks(walk: StickValue, turn: StickValue): Drive {
 
 /** Sum of several sources (sticks, keys, gamepad, tilt), each axis cut at full speed. */
 export function addDrives(drives: readonly Drive[]): Drive {
-  const sum = {...kNoDrive};
-  for (const drive of drives) {
-    sum.x += drive.x;
-    sum.y += drive.y;
-    sum.theta += drive.theta;
-  }
-  return {x: cut(sum.x), y: cut(sum.y), theta: cut(sum.theta)};
+  const sum = (axis: keyof Drive) => clamp(drives.reduce((total, drive) => total + drive[axis], 0), -1, 1);
+  return {x: sum("x"), y: sum("y"), theta: sum("theta")};
 }
 
-const cut = (value: number) => Math.min(1, Math.max(-1, value));
 /** No -0. */
 const unsigned = (value: number) => value === 0 ? 0 : value;

@@ -5,15 +5,13 @@ import type {Match} from "../protocol/generated/remote_pb";
 import type {Sound} from "../sound";
 import type {Store} from "../store";
 import {eventInWords} from "./match_words";
-import {MatchSound} from "./match_sound";
+import {playTones, tonesOf} from "./match_sound";
 
 export class MatchEvents {
-  private readonly sound: MatchSound;
   /** Number of the last event that was told; negative before the first match. */
   private lastEvent = -1n;
 
-  constructor(store: Store, private readonly messages: Messages, sound: Pick<Sound, "running">) {
-    this.sound = new MatchSound(sound);
+  constructor(store: Store, private readonly messages: Messages, private readonly sound: Pick<Sound, "running">) {
     store.watch((state) => state.match, (match) => this.changed(match));
   }
 
@@ -25,6 +23,6 @@ export class MatchEvents {
     if (!match || !isNew) return;
     const words = eventInWords(match);
     if (words) this.messages.show(match.event === Match_Event.GOAL ? "good" : "info", words);
-    this.sound.play(match.event);
+    playTones(this.sound.running, tonesOf(match.event));
   }
 }

@@ -39,10 +39,10 @@ export class FieldMap {
     const ellipse = ellipseOf(pose.covariance);
     const corners = [0, 2.5, -2.5].map((angle) => `${kRobotSize * Math.cos(angle)},${kRobotSize * Math.sin(angle)}`).join(" ");
     this.things.replaceChildren(shape("g", {transform: `translate(${pose.x} ${pose.y})`},
-      ...(ellipse ? [shape("ellipse", {rx: ellipse.a, ry: ellipse.b, transform: `rotate(${degrees(ellipse.angle)})`})] : []),
+      ellipse && shape("ellipse", {rx: ellipse.a, ry: ellipse.b, transform: `rotate(${degrees(ellipse.angle)})`}),
       // From the odometry to the field, by the torso's place in both.
-      ...(ball && state ? [shape("circle", {cx: ball.x - torsoX, cy: ball.y - torsoY, r: kBallRadius,
-                                            transform: `rotate(${degrees(pose.theta - headingOf(state.torsoOrientation))})`})] : []),
+      ball && state && shape("circle", {cx: ball.x - torsoX, cy: ball.y - torsoY, r: kBallRadius,
+                                        transform: `rotate(${degrees(pose.theta - headingOf(state.torsoOrientation))})`}),
       shape("polygon", {points: corners, transform: `rotate(${degrees(pose.theta)})`})));
   }
 }

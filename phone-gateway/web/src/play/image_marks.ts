@@ -3,6 +3,8 @@ import {button} from "../controls/press";
 import {icon, shape} from "../dom";
 import {Vision_Detection_Kind} from "../protocol/generated/remote_pb";
 import type {Vision} from "../protocol/generated/remote_pb";
+import type {Actions} from "../screens/actions";
+import type {Store} from "../store";
 import {say} from "../text/texts";
 
 /** An analysed image is so much older than the shown one at most, ms; then its boxes disappear. */
@@ -22,10 +24,17 @@ export class ImageMarks {
   readonly button: HTMLButtonElement;
   private timer: ReturnType<typeof setTimeout> | undefined;
 
-  /** @param keep  remembers whether the boxes are shown. */
-  constructor(private isOn: boolean, private readonly keep: (isOn: boolean) => void) {
-    this.button = button({class: "image-boxes", hidden: true, "aria-label": say("play.boxes"), "aria-pressed": String(isOn)},
-                         () => this.toggle(), icon(kBoxesIcon));
+  constructor(private readonly store: Store, act: Actions) {
+    this.button = button({class: "image-boxes", hidden: true, "aria-label": say("play.boxes")},
+                         () => act.keep({hasBoxes: !this.isOn}), icon(kBoxesIcon));
+    store.watch((state) => state.settings.hasBoxes, (isOn) => {
+      this.marks.replaceChildren();
+      this.button.setAttribute("aria-pressed", String(isOn));
+    });
+  }
+
+  private get isOn(): boolean {
+    return this.store.get().settings.hasBoxes;
   }
 
   /** @param camera  whose image is shown. */
@@ -41,12 +50,5 @@ export class ImageMarks {
       return line.length === 4 ? shape("line", {x1, y1, x2, y2, stroke})
           : shape("rect", {x: x1, y: y1, width: x2 - x1, height: y2 - y1, stroke});
     }));
-  }
-
-  private toggle(): void {
-    this.isOn = !this.isOn;
-    this.keep(this.isOn);
-    this.marks.replaceChildren();
-    this.button.setAttribute("aria-pressed", String(this.isOn));
   }
 }

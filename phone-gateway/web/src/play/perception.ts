@@ -1,30 +1,33 @@
 /** What the robot sees, wherever the app shows it: on the stage, over the image, on the map; and taps on the ball. */
 import type {ImageView} from "../controls/image_view";
+import {Offer} from "../controls/offer";
 import {Play_Behavior} from "../protocol/generated/remote_pb";
-import type {FieldLines} from "../robot/floor";
 import type {Stage} from "../robot/stage";
+import type {Actions} from "../screens/actions";
 import type {Store} from "../store";
-import {BallChoice} from "./ball_choice";
+import {say} from "../text/texts";
 import {FieldMap} from "./field_map";
 import {ImageMarks} from "./image_marks";
 import type {PlayStrip} from "./play_strip";
+import {behaviorName} from "./play_words";
 import {isBallAt, isBallInImage} from "./seen";
 import {SeenObjects} from "./seen_objects";
 
 export class Perception {
   readonly map = new FieldMap();
-  readonly choice: BallChoice;
+  readonly choice: Offer;
   readonly objects: SeenObjects;
   private readonly marks: ImageMarks;
 
-  /** @param keepBoxes  remembers whether boxes are shown over the image. */
-  constructor(private readonly store: Store, private readonly stage: Stage, image: ImageView, play: PlayStrip,
-              hasBoxes: boolean, keepBoxes: (isOn: boolean) => void) {
+  constructor(private readonly store: Store, private readonly stage: Stage, image: ImageView, play: PlayStrip, act: Actions) {
     this.objects = new SeenObjects(stage);
-    this.marks = new ImageMarks(hasBoxes, keepBoxes);
-    this.choice = new BallChoice((behavior: Play_Behavior) => play.begin(behavior));
+    this.marks = new ImageMarks(store, act);
+    this.choice = new Offer("ball-choice", say("play.ball"), [Play_Behavior.GO_TO_BALL, Play_Behavior.KICK].map((behavior) => {
+      const name = behaviorName(behavior);
+      return {name, label: say(`play.${name}`), act: () => play.begin(behavior)};
+    }));
     image.addMarks(this.marks.element, this.marks.button);
-    image.onTap = ({x, y, pageX, pageY}) => this.canPlay && isBallInImage(this.store.get().vision, x, y) &&
+    image.onTap = (x, y, pageX, pageY) => this.canPlay && isBallInImage(this.store.get().vision, x, y) &&
         this.offer(pageX, pageY + 60);
     store.watch((state) => state.vision, (vision) => {
       this.objects.show(vision, store.get().state);
@@ -32,10 +35,6 @@ export class Perception {
       this.map.show(vision, store.get().state);
     });
     store.watch((state) => state.playState?.behavior ?? Play_Behavior.NONE, () => this.choice.clear());
-  }
-
-  setField(lines: FieldLines): void {
-    this.map.setField(lines);
   }
 
   /** A tap on the stage, px from its top left. @return true if it met the ball. */
@@ -51,7 +50,7 @@ export class Perception {
   }
 
   private offer(x: number, y: number): true {
-    this.choice.offer(x, y);
+    this.choice.show(x, y, window.innerWidth);
     return true;
   }
 }

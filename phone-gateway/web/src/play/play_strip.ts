@@ -6,25 +6,22 @@ import type {Notice} from "../protocol/generated/remote_pb";
 import type {Messages} from "../messages";
 import type {Store} from "../store";
 import {say} from "../text/texts";
-import {findBehavior, kBehaviorNames} from "./play_words";
+import {behaviorName} from "./play_words";
 
-const kOffered = ["score", "keep-goal", "go-to-ball", "kick", "dribble"] as const;
+const kOffered = [Play_Behavior.SCORE, Play_Behavior.KEEP_GOAL, Play_Behavior.GO_TO_BALL, Play_Behavior.KICK, Play_Behavior.DRIBBLE];
 
 export class PlayStrip {
-  readonly element: HTMLElement;
-  private readonly strip: ChoiceStrip;
+  private readonly strip = new ChoiceStrip(say("play.strip"), "play-strip", (name) => this.chosen(name));
+  readonly element = this.strip.element;
   /** The behaviour that this page has begun last: its end is reported. */
   private begun: Play_Behavior = Play_Behavior.NONE;
 
   constructor(private readonly store: Store, private readonly commander: Commander,
               private readonly messages: Messages) {
-    this.strip = new ChoiceStrip(say("play.strip"), (name) => this.chosen(name));
-    this.element = this.strip.element;
-    this.element.classList.add("play-strip");
-    this.strip.setChoices(kOffered.map((name) => ({name, label: say(`play.${name}`)})));
+    this.strip.setChoices(kOffered.map(behaviorName).map((name) => ({name, label: say(`play.${name}`)})));
     store.watch((state) => state.playState !== null, (isThere) => this.element.hidden = !isThere);
     store.watch((state) => state.playState?.behavior ?? Play_Behavior.NONE,
-                (behavior) => this.strip.mark(behavior === Play_Behavior.NONE ? "" : kBehaviorNames[behavior]));
+                (behavior) => this.strip.mark(behaviorName(behavior)));
     store.watch((state) => state.lastResult, (notice) => notice && this.ended(notice));
   }
 
@@ -43,15 +40,14 @@ export class PlayStrip {
 
   /** A second tap on what runs ends it. */
   private chosen(name: string): void {
-    const behavior = findBehavior(name);
-    if (behavior === undefined) return;
+    const behavior = kOffered.find((one) => behaviorName(one) === name)!;
     const isRunning = this.store.get().playState?.behavior === behavior;
     this.begin(isRunning ? Play_Behavior.NONE : behavior);
   }
 
   private ended(notice: Notice): void {
     const isDone = notice.kind === Notice_Kind.COMMAND_RESULT && notice.status === Notice_Status.DONE;
-    const name = kBehaviorNames[this.begun];
+    const name = behaviorName(this.begun);
     if (!isDone || this.begun === Play_Behavior.NONE || notice.reasonArguments[0] !== name) return;
     this.begun = Play_Behavior.NONE;
     this.messages.show("good", say("play.done", {what: say(`play.${name}`)}));

@@ -16,15 +16,9 @@ export interface Place {
   y: number;
 }
 
-/** An ellipse: half axes, m, and direction of the first one, rad. */
-export interface Ellipse {
-  a: number;
-  b: number;
-  angle: number;
-}
-
-/** @param covariance  xx, xy, yy, m^2; empty: unknown. @return null if it is unknown. */
-export function ellipseOf(covariance: readonly number[]): Ellipse | null {
+/** @param covariance  xx, xy, yy, m^2; empty: unknown.
+ * @return half axes a and b, m, and the direction of the first one, rad; null if it is unknown. */
+export function ellipseOf(covariance: readonly number[]) {
   const [xx, xy, yy] = covariance;
   if (xx === undefined || xy === undefined || yy === undefined) return null;
   // Eigenvalues of a symmetric 2x2 matrix: mean +- root((xx - yy)^2 / 4 + xy^2).

@@ -70,6 +70,9 @@ export class SeenObjects {
   /** The robots' meshes. */
   private readonly figures: Mesh[] = [];
   private readonly posts: Mark[] = [];
+  private readonly red = new MeshLambertMaterial({color: 0xd8595c});
+  /** Of a robot that would hide the one that is driven. */
+  private readonly glass = new MeshLambertMaterial({color: 0xd8595c, transparent: true, opacity: 0.3, depthWrite: false});
   private readonly lines: LineSegments;
   private readonly ends = new Float32Array(kMaxLines * 6);
 
@@ -77,10 +80,9 @@ export class SeenObjects {
     const sphere = new Mesh(new SphereGeometry(kBallRadius, 24, 16), new MeshLambertMaterial({color: 0xf4f4f4}));
     sphere.position.z = kBallRadius;
     this.ball = new Mark(sphere, 0xffb84d);
-    const red = new MeshLambertMaterial({color: 0xd8595c});
     const white = new MeshLambertMaterial({color: 0xf4f7f9});
     for (let i = 0; i < kMaxThings; i++) {
-      this.figures.push(figure(red));
+      this.figures.push(figure(this.red));
       this.robots.push(new Mark(this.figures[i]!, 0xff6a6a));
       this.posts.push(new Mark(column(0.05, 0.8, white), 0xf4f7f9));
     }
@@ -103,9 +105,12 @@ export class SeenObjects {
     const ball = ballOf(vision);
     this.ball.object.visible = ball !== null;
     if (ball) this.ball.show(ball, ball.covariance);
-    // Robots that play with this one are as tall.
-    for (const mesh of this.figures) mesh.scale.setScalar(this.stage.robotHeight);
     this.showThings(this.robots, Vision_Detection_Kind.ROBOT, vision, state);
+    // Robots that play with this one are as tall.
+    for (const mesh of this.figures) {
+      mesh.scale.setScalar(this.stage.robotHeight);
+      mesh.material = this.stage.isBeforeRobot(mesh) ? this.glass : this.red;
+    }
     this.showThings(this.posts, Vision_Detection_Kind.GOAL_POST, vision, state);
     this.showLines(vision, state);
     this.stage.outdate();

@@ -1,16 +1,10 @@
 /** How the stage draws: with a graphics chip, or in software, where every pixel is dear. */
 
-export interface DrawingContext {
-  gl: WebGL2RenderingContext;
-  /** True if the processor draws. */
-  isSoftware: boolean;
-}
-
 /** The browser has no WebGL 2. */
 export class CannotDraw extends Error {}
 
-/** @throws CannotDraw if the browser cannot draw in 3D. */
-export function openDrawingContext(canvas: HTMLCanvasElement): DrawingContext {
+/** @return isSoftware: the processor draws. @throws CannotDraw if the browser cannot draw in 3D. */
+export function openDrawingContext(canvas: HTMLCanvasElement) {
   // Antialiasing is requested before the renderer is known: a second canvas reports the renderer.
   const isSoftware = isSoftwareRenderer(nameOfRenderer());
   const gl = canvas.getContext("webgl2", {

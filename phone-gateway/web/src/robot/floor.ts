@@ -79,7 +79,16 @@ const kFragmentShader = `
 
 export class Floor {
   readonly object = new Group();
-  private readonly material: ShaderMaterial;
+  private readonly uniforms = {
+    centre: {value: new Vector2()},
+    radius: {value: kVisibleRadius},
+    hasField: {value: 0},
+    field: {value: new Vector4()},
+    penalty: {value: new Vector2()},
+    turf: {value: new Color()},
+    lines: {value: new Color()},
+    contact: {value: (kVisibleRadius / kContactWidth) ** 2},
+  };
   private readonly ground = new Group();
   private readonly shadow = new Mesh(undefined, new ShadowMaterial({opacity: 0.45, depthWrite: false}));
   /** Ring around a spot that was tapped. */
@@ -91,25 +100,10 @@ export class Floor {
   private readonly path = new Mesh(new PlaneGeometry(1, kPathWidth).rotateX(-Math.PI / 2), this.marker.material);
 
   constructor() {
-    this.material = new ShaderMaterial({
-      vertexShader: kVertexShader,
-      fragmentShader: kFragmentShader,
-      transparent: true,
-      depthWrite: false,
-      uniforms: {
-        centre: {value: new Vector2()},
-        radius: {value: kVisibleRadius},
-        hasField: {value: 0},
-        field: {value: new Vector4()},
-        penalty: {value: new Vector2()},
-        turf: {value: new Color()},
-        lines: {value: new Color()},
-        contact: {value: (kVisibleRadius / kContactWidth) ** 2},
-      },
-    });
     const plane = new PlaneGeometry(2 * kVisibleRadius, 2 * kVisibleRadius);
     plane.rotateX(-Math.PI / 2);
-    const ground = new Mesh(plane, this.material);
+    const ground = new Mesh(plane, new ShaderMaterial({
+      vertexShader: kVertexShader, fragmentShader: kFragmentShader, transparent: true, depthWrite: false, uniforms: this.uniforms}));
     ground.renderOrder = -2;
     const {shadow} = this;
     shadow.geometry = plane;
@@ -123,18 +117,16 @@ export class Floor {
 
   /** Shows the lines of a field; without, a plain grid of 0.25 m. */
   setField(lines: FieldLines): void {
-    const {hasField, field, penalty} = this.material.uniforms;
-    hasField!.value = 1;
-    (field!.value as Vector4).set(lines.length / 2, lines.width / 2, lines.lineWidth / 2,
-                                 lines.centreCircleDiameter / 2);
-    (penalty!.value as Vector2).set(lines.penaltyAreaLength, lines.penaltyAreaWidth / 2);
+    const {hasField, field, penalty} = this.uniforms;
+    hasField.value = 1;
+    field.value.set(lines.length / 2, lines.width / 2, lines.lineWidth / 2, lines.centreCircleDiameter / 2);
+    penalty.value.set(lines.penaltyAreaLength, lines.penaltyAreaWidth / 2);
   }
 
   /** @param turf,lines  as in style sheets. */
   setColors(turf: string, lines: string): void {
-    const {uniforms} = this.material;
-    (uniforms["turf"]!.value as Color).set(turf);
-    (uniforms["lines"]!.value as Color).set(lines);
+    this.uniforms.turf.value.set(turf);
+    this.uniforms.lines.value.set(lines);
   }
 
   /** Whether the robot's shadow is drawn on it. */
@@ -155,6 +147,6 @@ export class Floor {
   /** Keeps the visible part around the robot, m in the robot's axes. */
   moveTo(x: number, y: number): void {
     this.ground.position.set(x, 0, -y);
-    (this.material.uniforms["centre"]!.value as Vector2).set(x, y);
+    this.uniforms.centre.value.set(x, y);
   }
 }

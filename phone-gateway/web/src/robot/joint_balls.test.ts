@@ -1,10 +1,11 @@
 import {create} from "@bufbuild/protobuf";
 import {PerspectiveCamera, RingGeometry} from "three";
-import type {Mesh} from "three";
+import type {Mesh, Vector3} from "three";
 import {describe, expect, it} from "vitest";
 import {readUrdf} from "../../test_support/nao_files";
 import {JointGroupSchema} from "../protocol/generated/remote_pb";
-import {JointBalls, kAxes, kAxisColors} from "./joint_balls";
+import {kAxes, kAxisColors} from "./joint_axes";
+import {JointBalls} from "./joint_balls";
 import {RobotSurface} from "./robot_surface";
 import {RobotTree} from "./robot_tree";
 
@@ -64,9 +65,13 @@ describe("JointBalls", () => {
   it("selects the nearest ball within the tap radius, and none beyond", () => {
     const balls = makeBalls();
     const camera = makeCamera();
-    const [x, y] = balls.places(camera, 400, 400)["left shoulder"]!;
-    expect(balls.pick(x + 20, y + 10, camera, 400, 400)).toBe("left shoulder");
-    expect(balls.pick(x + 200, y + 200, camera, 400, 400)).toBe("");
+    const canvas = {onCanvas: (point: Vector3): [number, number] => {
+      const {x, y} = point.project(camera);
+      return [200 + 200 * x, 200 - 200 * y];
+    }};
+    const [x, y] = new Map(balls.places(canvas)).get("left shoulder")!;
+    expect(balls.pick(x + 20, y + 10, canvas)).toBe("left shoulder");
+    expect(balls.pick(x + 200, y + 200, canvas)).toBe("");
   });
 
   it("shows the arcs of the chosen group only, and makes them once", () => {

@@ -1,31 +1,24 @@
 /** Joints mode on the stage: the robot becomes translucent, each joint group gets a ball to tap, and
  * arcs show how far the chosen one turns. */
 import {
-  BufferGeometry, Float32BufferAttribute, Group, Line, LineBasicMaterial, Mesh, MeshBasicMaterial,
+  BufferGeometry, Float32BufferAttribute, Group, Line, LineBasicMaterial, Matrix4, Mesh, MeshBasicMaterial,
   Quaternion, RingGeometry, SphereGeometry, Vector3,
 } from "three";
-import type {Camera, Object3D} from "three";
+import type {Object3D} from "three";
 import type {JointGroup} from "../protocol/generated/remote_pb";
+import {jointOfAxis, kAxes, kAxisColors} from "./joint_axes";
+import type {Axis} from "./joint_axes";
 import type {RobotSurface} from "./robot_surface";
 import type {RobotTree} from "./robot_tree";
+import type {Stage} from "./stage";
 
 const kBallRadius = 0.015;
 const kArcRadius = 0.075;
 const kArcWidth = 0.008;
 /** Radius of a tap, px, about a fingertip: the nearest ball within it is selected. */
 const kReach = 44;
-/** Far apart for colour-blind eyes too, as joint_balls.test.ts holds; and named beside the controls. */
-export const kAxisColors = {yaw: 0x3d9bff, pitch: 0xffb84d, roll: 0xf0c8ff} as const;
-export type Axis = keyof typeof kAxisColors;
-export const kAxes: readonly Axis[] = ["yaw", "pitch", "roll"];
 
-/** Name of a group's joint about an axis; empty if it has none. */
-export function jointOfAxis(group: JointGroup, axis: Axis): string {
-  return axis === "yaw" ? group.yawJoint : axis === "pitch" ? group.pitchJoint : group.rollJoint;
-}
-
-/** The same for style sheets, "#3d9bff". */
-export const cssColorOfAxis = (axis: Axis): string => `#${kAxisColors[axis].toString(16).padStart(6, "0")}`;
+type Canvas = Pick<Stage, "onCanvas">;
 
 interface Ball {
   group: JointGroup;
@@ -44,7 +37,6 @@ export class JointBalls {
   /** Arcs of each group that was chosen before: they are made once, since some graphics drivers leak memory at
    * each change. */
   private readonly arcsOfGroup = new Map<string, readonly Arc[]>();
-  private selected = "";
   private readonly place = new Vector3();
   private readonly sphere = new SphereGeometry(kBallRadius, 20, 14);
 
@@ -72,7 +64,6 @@ export class JointBalls {
 
   /** Chooses a group by name; empty: none. */
   select(name: string): void {
-    this.selected = name;
     for (const {group, mesh} of this.balls) {
       const isSelected = group.name === name;
       mesh.material.color.set(isSelected ? 0x4fb4f5 : 0xdfe9f2);
@@ -86,9 +77,9 @@ export class JointBalls {
   }
 
   /** The group whose ball is nearest to a tap; empty if none is within reach.
-   * @param x,y  px from the canvas's top left; the canvas is `width` by `height`. */
-  pick(x: number, y: number, camera: Camera, width: number, height: number): string {
-    const distances = Object.entries(this.places(camera, width, height))
+   * @param x,y  px from the canvas's top left. @param canvas  says where a point is on it. */
+  pick(x: number, y: number, canvas: Canvas): string {
+    const distances = this.places(canvas)
         .map(([group, place]) => ({group, distance: Math.hypot(place[0] - x, place[1] - y)}))
         .filter(({distance}) => distance < kReach).sort((a, b) => a.distance - b.distance);
     return distances[0]?.group ?? "";
@@ -99,21 +90,14 @@ export class JointBalls {
     return this.balls.find((ball) => ball.group.name === name)?.mesh.parent ?? null;
   }
 
-  /** Where each ball is on the canvas, px. */
-  places(camera: Camera, width: number, height: number): Record<string, [number, number]> {
-    return Object.fromEntries(this.balls.map(({group, mesh}) => {
-      mesh.getWorldPosition(this.place).project(camera);
-      return [group.name, [(this.place.x + 1) / 2 * width, (1 - this.place.y) / 2 * height]];
-    }));
+  /** Where each ball is on the canvas, px, by joint group. */
+  places({onCanvas}: Canvas): [string, [number, number]][] {
+    return this.balls.map(({group, mesh}) => [group.name, onCanvas(mesh.getWorldPosition(this.place))]);
   }
 
   /** Moves the arcs' needles to the angles shown. */
   update(): void {
     for (const arc of this.arcs) arc.needle.rotation.z = this.tree.jointAngle(arc.joint);
-  }
-
-  get selectedGroup(): string {
-    return this.selected;
   }
 
   private arcsOf(group: JointGroup): readonly Arc[] {
@@ -167,10 +151,7 @@ function arcFrame(axis: Vector3, zero: Vector3): Quaternion {
   if (flat.lengthSq() < 1e-4) flat.set(1, 0, 0).addScaledVector(axis, -axis.x);
   if (flat.lengthSq() < 1e-4) flat.set(0, 0, -1).addScaledVector(axis, axis.z);
   flat.normalize();
-  const toAxis = new Quaternion().setFromUnitVectors(new Vector3(0, 0, 1), axis);
-  const x = new Vector3(1, 0, 0).applyQuaternion(toAxis);
-  const angle = Math.atan2(x.clone().cross(flat).dot(axis), x.dot(flat));
-  return new Quaternion().setFromAxisAngle(axis, angle).multiply(toAxis);
+  return new Quaternion().setFromRotationMatrix(new Matrix4().makeBasis(flat, axis.clone().cross(flat), axis));
 }
 
 /** Where the link points at angle 0: to the next link that is not at the same place. */

@@ -5,7 +5,7 @@ import {parseFieldLines} from "./load_field";
 describe("parseFieldLines", () => {
   it("reads the scene file of this project", () => {
     const text = readFileSync(new URL("../../../../data/scenes/soccer.yaml", import.meta.url), "utf8");
-    expect(parseFieldLines(text)).toEqual({
+    expect(parseFieldLines(text)).toMatchObject({
       length: 9, width: 6, lineWidth: 0.05, centreCircleDiameter: 1.5,
       penaltyAreaLength: 1.65, penaltyAreaWidth: 4,
     });

@@ -1,5 +1,6 @@
 /** Where the eye stands: it goes after the robot, turns with it, and is moved aside by the person's
  * finger. Pure; angles in rad, lengths in m, in the robot's axes (Z up). */
+import {clamp} from "../clamp";
 
 const kMinZoom = 0.35;
 const kMaxZoom = 2.2;
@@ -93,8 +94,4 @@ export class Orbit {
 /** The same angle between -pi and pi. */
 export function wrapAngle(angle: number): number {
   return angle - 2 * Math.PI * Math.round(angle / (2 * Math.PI));
-}
-
-function clamp(value: number, lower: number, upper: number): number {
-  return Math.min(Math.max(value, lower), upper);
 }

@@ -38,13 +38,11 @@ export class PoseMirror {
       const angle = state.jointPosition[i];
       if (angle !== undefined && Number.isFinite(angle)) this.target[i] = angle;
     }
-    const [x, y, z] = state.torsoPosition;
-    if (isFinite3(x, y, z)) this.position.set(x!, y!, z!);
-    const [w, i, j, k] = state.torsoOrientation;
-    if (isFinite3(i, j, k) && Number.isFinite(w)) {
-      const length = Math.hypot(w!, i!, j!, k!);
-      if (length > 0.5) this.orientation.set(i! / length, j! / length, k! / length, w! / length);
-    }
+    const [x = NaN, y = NaN, z = NaN] = state.torsoPosition;
+    if (Number.isFinite(x + y + z)) this.position.set(x, y, z);
+    const [w = NaN, i = NaN, j = NaN, k = NaN] = state.torsoOrientation;
+    const length = Math.hypot(w, i, j, k);
+    if (length > 0.5 && Number.isFinite(length)) this.orientation.set(i / length, j / length, k / length, w / length);
     if (!this.hasState) this.jump();
     this.hasState = true;
   }
@@ -80,8 +78,4 @@ export class PoseMirror {
     this.tree.torso.position.copy(this.position);
     this.tree.torso.quaternion.copy(this.orientation);
   }
-}
-
-function isFinite3(a: number | undefined, b: number | undefined, c: number | undefined): boolean {
-  return Number.isFinite(a) && Number.isFinite(b) && Number.isFinite(c);
 }

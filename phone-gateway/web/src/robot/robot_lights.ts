@@ -11,6 +11,7 @@ const kForward = new Vector3(0, 0, 1);
 
 export class RobotLights {
   private readonly materials: MeshBasicMaterial[] = [];
+  private readonly discs: Mesh[] = [];
   private readonly shown: number[] = [];
 
   /** @param lights  the order of State.light_rgb. A light on a link that the robot does not have is left out. */
@@ -28,6 +29,7 @@ export class RobotLights {
         mesh.position.set(disc.center[0] ?? 0, disc.center[1] ?? 0, disc.center[2] ?? 0);
         const normal = new Vector3(disc.normal[0] ?? 0, disc.normal[1] ?? 0, disc.normal[2] ?? 1);
         mesh.quaternion.copy(new Quaternion().setFromUnitVectors(kForward, normal.normalize()));
+        this.discs.push(mesh);
         tree.link(light.link).add(mesh);
       }
     }
@@ -54,10 +56,7 @@ export class RobotLights {
 
   /** Takes the lights off the robot. */
   dispose(): void {
-    this.tree.torso.traverse((object) => {
-      const mesh = object as Mesh;
-      if (mesh.isMesh && this.materials.includes(mesh.material as MeshBasicMaterial)) mesh.visible = false;
-    });
+    for (const disc of this.discs) disc.removeFromParent();
     for (const material of this.materials) material.dispose();
   }
 }

@@ -1,5 +1,5 @@
 /** The robot as a tree of three.js objects, one per link, in the robot's own axes (Z up). */
-import {Group, Quaternion, Vector3} from "three";
+import {Euler, Group, Quaternion, Vector3} from "three";
 import type {Triple, Urdf, UrdfJoint} from "./urdf";
 
 interface JointNode {
@@ -96,9 +96,6 @@ export class RobotTree {
 }
 
 /** URDF's rotation: R = Rz(yaw) Ry(pitch) Rx(roll). */
-export function quaternionFromRpy([roll, pitch, yaw]: Triple): Quaternion {
-  const x = new Quaternion().setFromAxisAngle(new Vector3(1, 0, 0), roll);
-  const y = new Quaternion().setFromAxisAngle(new Vector3(0, 1, 0), pitch);
-  const z = new Quaternion().setFromAxisAngle(new Vector3(0, 0, 1), yaw);
-  return z.multiply(y).multiply(x);
+export function quaternionFromRpy(rpy: Triple): Quaternion {
+  return new Quaternion().setFromEuler(new Euler(...rpy, "ZYX"));
 }

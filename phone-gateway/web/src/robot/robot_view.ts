@@ -111,17 +111,14 @@ export class RobotView {
 
   /** Group of the ball under a finger; empty if there is none. @param x,y  px from the canvas's top left. */
   ballAt(x: number, y: number): string {
-    const {width, height} = this.stage.size;
-    return this.balls?.pick(x, y, this.stage.camera, width, height) ?? "";
+    return this.balls?.pick(x, y, this.stage) ?? "";
   }
 
   /** The link of the ball under a finger, if it is one of `groups`. */
   holdBall(x: number, y: number, groups: readonly string[]): {link: string; drag: LinkDrag} | null {
     const group = this.ballAt(x, y);
     const link = groups.includes(group) ? this.balls?.linkOf(group) : null;
-    if (!link || !this.tree) return null;
-    const {width, height} = this.stage.size;
-    return {link: link.name, drag: new LinkDrag(link, this.tree.torso, this.stage.camera, width, height, x, y)};
+    return !link || !this.tree ? null : {link: link.name, drag: new LinkDrag(link, this.tree.torso, this.stage, x, y)};
   }
 
   private makeMirror(): void {

@@ -2,8 +2,9 @@
  * nothing while all stands still: a phone's battery, and the next movement, have the gain. */
 import {
   ACESFilmicToneMapping, DirectionalLight, Group, HemisphereLight, PCFShadowMap,
-  PerspectiveCamera, Scene, Vector3, WebGLRenderer,
+  PerspectiveCamera, Plane, Raycaster, Scene, Vector2, Vector3, WebGLRenderer,
 } from "three";
+import type {Object3D} from "three";
 import type {JointGroup} from "../protocol/generated/remote_pb";
 import {openDrawingContext} from "./drawing_context";
 import {Floor} from "./floor";
@@ -55,13 +56,7 @@ const kSunAbove = 3.8;
 const kShadowReach = 1.2;
 const kShadowDepth = 7;
 
-/** A part of the canvas, px from its top left. */
-export interface FreeArea {
-  left: number;
-  top: number;
-  right: number;
-  bottom: number;
-}
+const kGround = new Plane(new Vector3(0, 1, 0));
 
 export class Stage {
   readonly orbit = new Orbit(kDriveView);
@@ -93,10 +88,11 @@ export class Stage {
   private isSharp = false;
   private width = 1;
   private height = 1;
-  private freeArea: FreeArea | null = null;
+  private freeArea: DOMRect | null = null;
   private readonly eye = new Vector3();
   private readonly drawnEye = new Vector3();
   private readonly drawnFocus = new Vector3();
+  private readonly place = new Vector3();
 
   constructor(readonly canvas: HTMLCanvasElement) {
     const {gl, isSoftware} = openDrawingContext(canvas);
@@ -248,11 +244,11 @@ export class Stage {
 
   /** Joint group that moves the part of the robot under a point, px from the top left; empty if there is none. */
   groupAt(x: number, y: number, groups: readonly JointGroup[]): string {
-    return this.robot ? groupAt(this.robot, groups, this.camera, 2 * x / this.width - 1, 1 - 2 * y / this.height, this.robotHeight) : "";
+    return this.robot ? groupAt(this.robot, groups, this.rayAt(x, y), this.robotHeight) : "";
   }
 
-  /** Places the robot in the middle of an area, as large as fits; null: of all. */
-  setFreeArea(area: FreeArea | null): void {
+  /** Places the robot in the middle of an area, px from the canvas's top left, as large as fits; null: of all. */
+  setFreeArea(area: DOMRect | null): void {
     this.freeArea = area;
     this.frameRobot();
   }
@@ -263,8 +259,23 @@ export class Stage {
     return q ? Math.atan2(2 * (q.x * q.y + q.w * q.z), 1 - 2 * (q.y * q.y + q.z * q.z)) : 0;
   }
 
-  get size(): {width: number; height: number} {
-    return {width: this.width, height: this.height};
+  /** The ray from the eye through a point of the canvas, px from the top left. */
+  readonly rayAt = (x: number, y: number): Raycaster => {
+    const ray = new Raycaster();
+    ray.setFromCamera(new Vector2(2 * x / this.width - 1, 1 - 2 * y / this.height), this.camera);
+    return ray;
+  };
+
+  /** Where a point of the scene is on the canvas, px from its top left. @param point  is changed. */
+  readonly onCanvas = (point: Vector3): [number, number] => {
+    const {x, y} = point.project(this.camera);
+    return [(x + 1) / 2 * this.width, (1 - y) / 2 * this.height];
+  };
+
+  /** True for what stands nearer to the eye than the robot. */
+  isBeforeRobot(object: Object3D): boolean {
+    const distance = (one: Object3D) => one.getWorldPosition(this.place).distanceTo(this.camera.position);
+    return this.robot !== null && distance(object) < distance(this.robot.torso);
   }
 
   /** A point of the canvas on the page, px from its top left. */
@@ -276,18 +287,15 @@ export class Stage {
   /** The spot on the ground under a point of the canvas, m in the robot's axes; null above the horizon.
    * @param x,y  px from the top left. */
   groundAt(x: number, y: number): {x: number; y: number} | null {
-    const ray = this.eye.set(2 * x / this.width - 1, 1 - 2 * y / this.height, 0.5)
-        .unproject(this.camera).sub(this.camera.position);
-    if (ray.y > -1e-3) return null;
-    const length = -this.camera.position.y / ray.y;
-    return {x: this.camera.position.x + length * ray.x, y: -(this.camera.position.z + length * ray.z)};
+    const hit = this.rayAt(x, y).ray.intersectPlane(kGround, new Vector3());
+    return hit && {x: hit.x, y: -hit.z};
   }
 
   private frameRobot(): void {
     const {width, height, camera} = this;
-    const area = this.freeArea ?? {left: 0, top: 0, right: width, bottom: height};
-    const freeWidth = Math.max(area.right - area.left, 0.2 * width);
-    const freeHeight = Math.max(area.bottom - area.top, 0.2 * height);
+    const area = this.freeArea ?? new DOMRect(0, 0, width, height);
+    const freeWidth = Math.max(area.width, 0.2 * width);
+    const freeHeight = Math.max(area.height, 0.2 * height);
     const pixelsPerMetre = Math.min(freeWidth / (kShownWidth * this.robotHeight),
                                     freeHeight / (kShownHeight * this.robotHeight));
     const tangent = Math.tan((kFieldOfViewDeg * Math.PI) / 360);

@@ -1,6 +1,6 @@
 /** What the screens ask of the app. */
 import type {BluetoothDevice} from "../bluetooth/web_bluetooth";
-import type {Language} from "../text/texts";
+import type {Settings} from "../settings";
 
 /** What stands in the form for a connection. */
 export interface ConnectionForm {
@@ -10,9 +10,8 @@ export interface ConnectionForm {
 }
 
 export interface Actions {
-  connect(form: ConnectionForm): void;
-  connectByBluetooth(form: ConnectionForm, device: BluetoothDevice): void;
-  openForm(): void;
+  /** @param device  by Bluetooth; none: over the network. */
+  connect(form: ConnectionForm, device?: BluetoothDevice): void;
   /** Connects at once. */
   retry(): void;
   leave(): void;
@@ -26,12 +25,8 @@ export interface Actions {
   openSpeech(): void;
   setJointsMode(isOn: boolean): void;
   stop(): void;
-  explainLink(): void;
-  /** The person has walked the robot: the hint has served. */
-  walked(): void;
   /** @return whether tilting is on now. */
   setTilt(isOn: boolean): Promise<boolean>;
-  /** True: walk on the right, turn on the left. */
-  setSwapped(isSwapped: boolean): void;
-  setLanguage(language: Language): void;
+  /** The phone remembers settings. */
+  keep(settings: Partial<Settings>): void;
 }

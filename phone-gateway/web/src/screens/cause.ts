@@ -3,6 +3,7 @@ import type {Commander} from "../commander";
 import {button} from "../controls/press";
 import {el} from "../dom";
 import {Notice_Component} from "../protocol/generated/remote_pb";
+import {nameOf} from "../protocol/names";
 import type {AppState, Problem, Store} from "../store";
 import {say} from "../text/texts";
 import type {TextKey} from "../text/texts";
@@ -38,10 +39,10 @@ export function causeOf(state: Readonly<AppState>): Cause | null {
     const [remedy, key] = kRemedies[problem];
     return {text: say(`problem.${problem}`), remedy, button: say(key)};
   }
-  for (const [component, name] of [[Notice_Component.ROBOT, "robot"], [Notice_Component.MOTION, "motion"]] as const) {
-    if (!unavailableComponents.includes(component)) continue;
+  const missing = [Notice_Component.ROBOT, Notice_Component.MOTION].find((component) => unavailableComponents.includes(component));
+  if (missing !== undefined) {
     const remedy = robots.length > 1 ? "robots" : null;
-    return {text: say(`component.${name}`), remedy, button: remedy ? say("lobby.open") : ""};
+    return {text: say(`component.${nameOf(Notice_Component, missing, "robot")}`), remedy, button: remedy ? say("lobby.open") : ""};
   }
   if (control?.isMine && control.nextId !== 0) {
     return {text: say("control.asks", {name: control.nextName}), remedy: "hand-over",
@@ -54,7 +55,7 @@ export function causeBar(store: Store, commander: Commander, act: Actions): HTML
   const bar = el("div", {class: "cause", role: "status", hidden: true});
   const remedies: Record<Remedy, () => void> = {
     reload: () => location.reload(),
-    form: () => act.openForm(),
+    form: () => store.set({isFormOpen: true}),
     retry: () => act.retry(),
     robots: () => act.changeRobot(),
     "hand-over": () => void commander.handOver(),

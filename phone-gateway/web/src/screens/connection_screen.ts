@@ -14,28 +14,26 @@ const kDetailed: readonly Problem[] = ["closed", "not-a-robot", "too-many", "wro
 
 export class ConnectionScreen {
   readonly element: HTMLElement;
-  private readonly address = field("address", "url", "192.168.1.20:8080");
-  private readonly token = field("token", "text", "");
-  private readonly clientName = field("client-name", "text", say("connection.namePlaceholder"));
+  private readonly fields: Readonly<Record<keyof ConnectionForm, HTMLInputElement>> = {
+    address: field("address", "url", "192.168.1.20:8080"), token: field("token", "text", ""),
+    clientName: field("client-name", "text", say("connection.namePlaceholder"))};
   private readonly problem = el("div", {class: "problem", role: "alert", hidden: true});
   private readonly submit = el("button", {class: "button primary", type: "submit"});
-  private readonly cancel: HTMLButtonElement;
-  private readonly recent = el("ul", {class: "recent"});
-  private readonly nearby = el("ul", {class: "recent nearby", hidden: true});
+  private readonly cancel = el("button", {class: "button", type: "button", onclick: () => this.act.leave()}, say("connection.cancel"));
+  private readonly recent = el("ul", {class: "recent", "aria-label": say("connection.recent")});
+  private readonly nearby = el("ul", {class: "recent nearby", "aria-label": say("connection.nearby"), hidden: true});
   private countdown: ReturnType<typeof setInterval> | undefined;
 
   constructor(private readonly store: Store, private readonly act: Actions) {
-    this.cancel = el("button", {class: "button", type: "button", onclick: () => act.leave()},
-                     say("connection.cancel"));
     const form = el("form", {class: "card", onsubmit: (event: Event) => this.submitted(event),
                              onpaste: () => setTimeout(() => this.read())},
       el("header", {}, el("img", {class: "logo", src: "icon.svg", alt: ""}),
          el("div", {}, el("h1", {}, say("connection.title")),
             el("p", {class: "quiet"}, say("connection.subtitle")))),
       this.problem,
-      labelled(say("connection.address"), this.address),
-      labelled(say("connection.token"), this.token, say("connection.tokenHelp")),
-      labelled(say("connection.name"), this.clientName),
+      labelled(say("connection.address"), this.fields.address),
+      labelled(say("connection.token"), this.fields.token, say("connection.tokenHelp")),
+      labelled(say("connection.name"), this.fields.clientName),
       el("div", {class: "buttons"}, this.cancel, this.submit), this.bluetooth(),
       this.nearby, this.recent);
     this.element = el("section", {class: "screen connection-screen"}, form);
@@ -44,29 +42,23 @@ export class ConnectionScreen {
   }
 
   /** Fills the form in. */
-  fill(address: string, token: string, settings: Settings): void {
-    this.address.value = address;
-    this.token.value = token;
-    this.clientName.value = settings.clientName;
-    const others = settings.recent.filter((recent) => recent.address !== address);
-    const items = others.map((recent) => el("li", {}, el("button", {
-      class: "button quiet", type: "button",
-      onclick: () => this.act.connect({...recent, clientName: this.clientName.value}),
-    }, recent.address)));
-    this.recent.replaceChildren(...items);
-    this.recent.hidden = items.length === 0;
-    this.recent.setAttribute("aria-label", say("connection.recent"));
+  fill(address: string, token: string, {clientName, recent}: Settings): void {
+    this.put({address, token, clientName});
+    const others = recent.filter((one) => one.address !== address);
+    this.recent.replaceChildren(...others.map((one) => this.choice(one.address, one)));
+    this.recent.hidden = others.length === 0;
   }
 
   /** Other robots in the network; each opens its own page. */
   showNearby(gateways: readonly Gateway[]): void {
     this.nearby.hidden = gateways.length === 0;
-    this.nearby.setAttribute("aria-label", say("connection.nearby"));
-    this.nearby.replaceChildren(el("li", {class: "quiet"}, say("connection.nearby")), ...gateways.map(
-        ({name, address}) => el("li", {}, el("button", {
-          class: "button quiet", type: "button",
-          onclick: () => this.act.connect({address, token: "", clientName: this.clientName.value}),
-        }, `${name} (${address})`))));
+    this.nearby.replaceChildren(el("li", {class: "quiet"}, say("connection.nearby")), ...gateways.map(({name, address}) =>
+        this.choice(`${name} (${address})`, {address, token: ""})));
+  }
+
+  private choice(text: string, robot: Omit<ConnectionForm, "clientName">): HTMLElement {
+    const connect = () => this.act.connect({...robot, clientName: this.fields.clientName.value});
+    return el("li", {}, el("button", {class: "button quiet", type: "button", onclick: connect}, text));
   }
 
   /** The second way; or the sentence why there is none. */
@@ -76,7 +68,7 @@ export class ConnectionScreen {
     const connect = async () => {
       const form = this.read();
       const device = await chooseRobot(bluetooth);
-      if (device) this.act.connectByBluetooth(form, device);
+      if (device) this.act.connect(form, device);
     };
     return el("button", {class: "button quiet bluetooth", type: "button", onclick: () => void connect()},
               say("connection.bluetooth"));
@@ -90,11 +82,14 @@ export class ConnectionScreen {
 
   /** Puts what was typed or pasted where it belongs. */
   private read(): ConnectionForm {
-    const form = readForm({address: this.address.value, token: this.token.value, clientName: this.clientName.value});
-    this.address.value = form.address;
-    this.token.value = form.token;
-    this.clientName.value = form.clientName;
+    const {address, token, clientName} = this.fields;
+    const form = readForm({address: address.value, token: token.value, clientName: clientName.value});
+    this.put(form);
     return form;
+  }
+
+  private put(form: ConnectionForm): void {
+    for (const name of ["address", "token", "clientName"] as const) this.fields[name].value = form[name];
   }
 
   private update(): void {
@@ -102,14 +97,11 @@ export class ConnectionScreen {
     clearInterval(this.countdown);
     this.showProblem(state);
     const isBusy = state.phase === "connecting";
+    const isWaiting = state.phase === "waiting";
     this.cancel.hidden = state.phase === "idle";
     this.submit.disabled = isBusy;
-    this.submit.textContent = say(isBusy ? "connection.connecting" :
-                                  state.phase === "waiting" ? "connection.now" :
-                                  "connection.connect");
-    if (state.phase === "waiting") {
-      this.countdown = setInterval(() => this.showProblem(this.store.get()), 250);
-    }
+    this.submit.textContent = say(isBusy ? "connection.connecting" : isWaiting ? "connection.now" : "connection.connect");
+    if (isWaiting) this.countdown = setInterval(() => this.showProblem(this.store.get()), 250);
   }
 
   private showProblem(state: Readonly<AppState>): void {

@@ -6,8 +6,8 @@ import {iconButton, onPressDown} from "../controls/press";
 import type {TiltSensor} from "../controls/tilt_sensor";
 import type {WalkSender} from "../controls/walk_sender";
 import {el, icon} from "../dom";
+import type {Messages} from "../messages";
 import type {PlayStrip} from "../play/play_strip";
-import type {FreeArea} from "../robot/stage";
 import type {RobotDescription} from "../protocol/generated/remote_pb";
 import type {Store} from "../store";
 import {say} from "../text/texts";
@@ -24,25 +24,29 @@ export class ControllerScreen {
   readonly element: HTMLElement;
   /** Where the robot is drawn in the midst, when it is the large view. */
   private readonly free = el("div", {class: "free"});
-  private readonly hint = el("p", {class: "hint", hidden: true}, el("span", {class: "by-touch"}, say("hint.walk")),
+  private readonly hint = el("p", {class: "hint"}, el("span", {class: "by-touch"}, say("hint.walk")),
                              el("span", {class: "by-keys"}, say("hint.keys")));
   private readonly sticks: Sticks;
   private readonly joints: HTMLButtonElement;
   private readonly more = navButton("more-button", "drive.more", kMoreIcon, () => this.setOpen(!this.element.classList.contains("open")));
 
-  /** @param view  the robot in 3D. @param notes  messages and causes. */
+  /** @param view  the robot in 3D. @param notes  where messages and causes are. */
   constructor(store: Store, commander: Commander, walk: WalkSender, private readonly view: HTMLElement,
               private readonly image: ImageView, private readonly panel: JointsPanel, tilt: TiltSensor, play: PlayStrip,
-              map: Element, notes: HTMLElement, private readonly act: Actions) {
-    this.sticks = new Sticks(walk, tilt);
-    this.sticks.onUse = () => this.hintServed();
+              map: Element, notes: HTMLElement, messages: Messages, act: Actions) {
+    this.sticks = new Sticks(store, walk, tilt);
+    // The hint has served.
+    this.sticks.onUse = () => {
+      if (!store.get().settings.hasWalked) act.keep({hasWalked: true});
+    };
+    image.onSwap = (isLarge) => this.element.classList.toggle("camera-large", isLarge);
     const stop = el("button", {class: "stop"}, icon(kStopIcon), el("span", {}, say("drive.stop")),
                     el("kbd", {"aria-hidden": "true"}, say("drive.stopKey")));
     onPressDown(stop, () => act.stop());
     this.joints = navButton("joints-button", "drive.joints", kJointsIcon, () => act.setJointsMode(!store.get().isJointsMode));
     this.element = el("section", {class: "screen controller-screen"},
       view, image.element, this.free, el("div", {class: "sheet"}),
-      new Status(store, commander, () => act.changeRobot()).element, linkSign(store, () => act.explainLink()),
+      new Status(store, commander, () => act.changeRobot()).element, linkSign(store, messages),
       notes, el("nav", {class: "modes", "aria-label": say("drive.menu")}, this.joints, this.more,
          navButton("speech-button", "drive.speak", kSpeechIcon, () => act.openSpeech()),
          navButton("menu-button", "drive.menu", kMenuIcon, () => act.openMenu())),
@@ -51,6 +55,10 @@ export class ControllerScreen {
     this.setOpen(false);
     store.watch((state) => state.isJointsMode, (isOn) => this.showMode(isOn));
     store.watch((state) => state.robot, (robot) => this.element.classList.toggle("walks", canWalk(robot)));
+    store.watch((state) => state.settings, ({isSwapped, hasWalked}) => {
+      this.element.classList.toggle("swapped", isSwapped);
+      this.hint.hidden = hasWalked;
+    });
   }
 
   /** Releases all controls. */
@@ -59,33 +67,13 @@ export class ControllerScreen {
     this.panel.release();
   }
 
-  /** True: walk on the right, turn on the left. */
-  setSwapped(isSwapped: boolean): void {
-    this.element.classList.toggle("swapped", isSwapped);
-  }
-
-  setTilt(isOn: boolean): void {
-    this.sticks.setTilt(isOn);
-  }
-
-  /** Tells how to walk, until it was done. */
-  showHint(): void {
-    this.hint.hidden = false;
-  }
-
-  /** True: the camera's image is the large view. */
-  showCameraLarge(isLarge: boolean): void {
-    this.element.classList.toggle("camera-large", isLarge);
-  }
-
   /** Calls `changed` with the part of the 3D view where the robot is to be, px, now and whenever it is another; null: all. */
-  observeFreeArea(changed: (area: FreeArea | null) => void): void {
+  observeFreeArea(changed: (area: DOMRect | null) => void): void {
     const measure = (): void => {
       const view = this.view.getBoundingClientRect();
       const free = this.free.getBoundingClientRect();
       if (view.width === 0) return;
-      changed(this.image.isLarge ? null : {left: free.left - view.left, top: free.top - view.top,
-                                          right: free.right - view.left, bottom: free.bottom - view.top});
+      changed(this.image.isLarge ? null : new DOMRect(free.left - view.left, free.top - view.top, free.width, free.height));
     };
     const observer = new ResizeObserver(measure);
     for (const part of [this.view, this.free]) observer.observe(part);
@@ -103,12 +91,6 @@ export class ControllerScreen {
     relabel(this.joints, isJointsMode ? "drive.drive" : "drive.joints", isJointsMode ? kWalkIcon : kJointsIcon);
     this.joints.append(el("kbd", {"aria-hidden": "true"}, "L"));
     this.joints.setAttribute("aria-pressed", String(isJointsMode));
-  }
-
-  private hintServed(): void {
-    if (this.hint.hidden) return;
-    this.hint.hidden = true;
-    this.act.walked();
   }
 }
 

@@ -27,15 +27,16 @@ export class Deck {
 
   /** @param map  of the field, shown with the rest. */
   constructor(private readonly store: Store, commander: Commander, play: PlayStrip, map: Element) {
-    this.postures = new ChoiceStrip(say("drive.postures"), (name) => void commander.command({case: "goToPosture", value: {posture: name}}));
-    this.actions = new ChoiceStrip(say("drive.actions"), (name) => void commander.command({case: "doAction", value: {action: name}}));
-    this.postures.element.classList.add("postures");
-    this.actions.element.classList.add("actions");
+    this.postures = new ChoiceStrip(say("drive.postures"), "postures", (name) =>
+        void commander.command({case: "goToPosture", value: {posture: name}}));
+    this.actions = new ChoiceStrip(say("drive.actions"), "actions", (name) =>
+        void commander.command({case: "doAction", value: {action: name}}));
     this.element = el("div", {class: "strips"}, play.element, this.postures.element, this.actions.element, map);
-    store.watch((state) => state.robot, (robot) => this.postures.setChoices(
-        (robot?.postures ?? []).map((name) => ({name, label: sayName("posture", name)}))));
+    store.watch((state) => state.robot, (robot) => {
+      this.postures.setChoices((robot?.postures ?? []).map((name) => ({name, label: sayName("posture", name)})));
+      this.showActions();
+    });
     store.watch((state) => state.drawings, (drawings) => this.postures.setDrawings(drawings));
-    store.watch((state) => state.robot, () => this.showActions());
     store.watch((state) => state.savedMotions, () => this.showActions());
     store.watch((state) => state.state?.posture ?? "", (posture) => this.postures.mark(posture));
     store.watch(momentOf, (moment) => {

@@ -3,6 +3,7 @@ export const kStopIcon = "M8 3h8l5 5v8l-5 5H8l-5-5V8z";
 export const kCloseIcon = "M6 6l12 12M18 6L6 18";
 export const kPlayIcon = "M8 5l11 7-11 7z";
 export const kAddIcon = "M12 5v14M5 12h14";
+export const kLessIcon = "M5 12h14";
 export const kSaveIcon = "M5 4h11l3 3v13H5zM8 4v5h7V4M8 20v-6h8v6";
 export const kListIcon = "M9 6h11M9 12h11M9 18h11M4.5 6h.01M4.5 12h.01M4.5 18h.01";
 export const kEditIcon = "M4 20l1-4L16 5l3 3L8 19zM14 7l3 3";

@@ -4,60 +4,52 @@ import {ChoiceStrip} from "../controls/choice_strip";
 import {JointDriver} from "../controls/joint_driver";
 import {Joystick} from "../controls/joystick";
 import {button} from "../controls/press";
-import {el, setText} from "../dom";
+import {cssColor, el, setText} from "../dom";
 import type {Joint, JointGroup, State} from "../protocol/generated/remote_pb";
-import {cssColorOfAxis, jointOfAxis, kAxes} from "../robot/joint_balls";
-import type {Axis} from "../robot/joint_balls";
+import {jointOfAxis, kAxes, kAxisColors} from "../robot/joint_axes";
+import type {Axis} from "../robot/joint_axes";
 import {jointPosition} from "../store";
 import type {Store} from "../store";
+import type {Teach} from "../teach/teach";
 import {say, sayName} from "../text/texts";
 import {kLimitPattern, vibrate} from "../vibrate";
-import type {TeachBar} from "./teach_bar";
 
 /** This near to a limit a joint is at its end, rad. */
 const kAtLimit = 0.012;
 
-export interface JointsActions {
-  reset(): void;
-  /** Makes the limb of a group limp, or stiff again. */
-  relax(group: string): void;
-}
-
 export class JointsPanel {
   readonly element: HTMLElement;
-  private readonly stick: Joystick;
-  private readonly strip: ChoiceStrip;
+  private readonly stick = new Joystick(say("joints.move"), "joint", false, () => this.driver.setStick(this.stick.value),
+                                        ["W", "A", "S", "D"]);
+  private readonly strip = new ChoiceStrip(say("joints.groups"), "groups", (selectedGroup) => this.store.set({selectedGroup}));
   private readonly name = el("strong", {class: "joint-name"});
   private readonly angles = el("dl", {class: "angles"});
   private readonly roll = el("input", {type: "range", step: "any", "aria-label": say("joints.roll")});
-  private readonly rollRow: HTMLElement;
-  private readonly both: HTMLButtonElement;
+  private readonly rollRow = paint("roll", el("label", {class: "roll"},
+                                              el("span", {class: "joystick-label"}, say("joints.roll")), this.roll));
+  private readonly both = button({class: "button small", "aria-pressed": "false"}, () => this.toggleBoth(), say("joints.both"));
   private readonly relax: HTMLButtonElement;
   /** Roll that was sent last while the slider is held, rad; NaN while it is free. */
   private heldRoll = NaN;
   private limitNow = "";
+  /** What is shown of each axis of the group; `isOpening`: it opens and closes, as a hand does. */
+  private rows: readonly {axis: Axis; joint: Joint; isOpening: boolean; row: HTMLElement; value: HTMLElement}[] = [];
   private groups: readonly JointGroup[] = [];
 
-  constructor(private readonly store: Store, private readonly driver: JointDriver,
-              readonly teachBar: TeachBar,
-              actions: JointsActions) {
-    this.stick = new Joystick(say("joints.move"), "joint", false, () => driver.setStick(this.stick.value), ["W", "A", "S", "D"]);
-    this.strip = new ChoiceStrip(say("joints.groups"), (selectedGroup) => store.set({selectedGroup}));
-    this.both = button({class: "button small", "aria-pressed": "false"}, () => this.toggleBoth(), say("joints.both"));
+  /** @param reset  takes the robot back to its ready posture. */
+  constructor(private readonly store: Store, private readonly driver: JointDriver, teach: Teach, reset: () => void) {
     this.relax = button({class: "button small relax", title: say("teach.relaxHelp")},
-                        () => driver.group && actions.relax(driver.group.name), say("teach.relax"));
-    const reset = button({class: "button small"}, () => actions.reset(), say("joints.reset"));
-    this.rollRow = paint("roll", el("label", {class: "roll"},
-                                    el("span", {class: "joystick-label"}, say("joints.roll")), this.roll));
+                        () => driver.group && void teach.relax(driver.group.name), say("teach.relax"));
+    const ready = button({class: "button small"}, reset, say("joints.reset"));
     this.roll.addEventListener("pointerdown", () => this.heldRoll = this.roll.valueAsNumber);
     this.roll.addEventListener("input", () => this.rollChanged());
     for (const type of ["pointerup", "pointercancel", "change", "blur"]) {
       this.roll.addEventListener(type, () => this.heldRoll = NaN);
     }
     this.element = el("div", {class: "joints-panel"},
-      teachBar.element, this.strip.element,
+      teach.bar.element, this.strip.element,
       el("div", {class: "joint-card"}, this.name, this.angles, this.rollRow,
-         el("div", {class: "joint-buttons"}, this.both, reset, this.relax)),
+         el("div", {class: "joint-buttons"}, this.both, ready, this.relax)),
       this.stick.element);
     store.watch((state) => state.robot, (robot) => this.setGroups(robot?.jointGroups ?? []));
     store.watch((state) => state.selectedGroup, (name) => this.select(name));
@@ -84,9 +76,15 @@ export class JointsPanel {
     this.name.textContent = group ? sayName("group", name) : say("joints.choose");
     this.element.dataset["group"] = name;
     this.limitNow = "";
-    const rows = group ? kAxes.filter((axis) => jointOfAxis(group, axis) !== "") : [];
-    this.angles.replaceChildren(...rows.map((axis) => paint(axis, el(
-        "div", {class: `axis axis-${axis}`}, el("dt", {}, axisLabel(group!, axis)), el("dd", {})))));
+    this.rows = kAxes.flatMap((axis) => {
+      const joint = this.joint(group, axis);
+      if (!group || !joint) return [];
+      const isOpening = group.isOpening && axis === "pitch";
+      const value = el("dd");
+      const row = el("div", {class: `axis axis-${axis}`}, el("dt", {}, say(isOpening ? "joints.opening" : `joints.${axis}`)), value);
+      return {axis, joint, isOpening, value, row: paint(axis, row)};
+    });
+    this.angles.replaceChildren(...this.rows.map(({row}) => row));
     const limits = this.joint(group, "roll");
     this.rollRow.hidden = !limits;
     if (limits) {
@@ -105,19 +103,13 @@ export class JointsPanel {
   }
 
   private showState(state: State | null): void {
-    const group = this.driver.group;
-    if (!group || !state || !this.store.get().isJointsMode) return;
+    if (!state || !this.store.get().isJointsMode) return;
     let limit = "";
-    for (const axis of kAxes) {
-      const joint = this.joint(group, axis);
-      if (!joint) continue;
+    for (const {axis, joint, isOpening, row, value} of this.rows) {
       const angle = jointPosition(this.joints, state, joint.name);
-      const row = this.angles.querySelector(`.axis-${axis}`);
       const isAtLimit = angle < joint.lower + kAtLimit || angle > joint.upper - kAtLimit;
-      row?.classList.toggle("at-limit", isAtLimit);
-      const text = angleText(isOpening(group, axis), angle) + (isAtLimit ? ` · ${say("joints.limit")}` : "");
-      const value = row?.querySelector("dd");
-      if (value) setText(value, text);
+      row.classList.toggle("at-limit", isAtLimit);
+      setText(value, angleText(isOpening, angle) + (isAtLimit ? ` · ${say("joints.limit")}` : ""));
       if (isAtLimit) limit += axis;
       if (axis === "roll" && Number.isNaN(this.heldRoll)) this.roll.value = String(angle);
     }
@@ -152,17 +144,8 @@ export class JointsPanel {
 
 /** Gives an element the colour of its axis' arc. */
 function paint(axis: Axis, element: HTMLElement): HTMLElement {
-  element.style.setProperty("--axis", cssColorOfAxis(axis));
+  element.style.setProperty("--axis", cssColor(kAxisColors[axis]));
   return element;
-}
-
-function axisLabel(group: JointGroup, axis: Axis): string {
-  return say(isOpening(group, axis) ? "joints.opening" : `joints.${axis}`);
-}
-
-/** True for an axis that opens and closes, as a hand does. */
-function isOpening(group: JointGroup, axis: Axis): boolean {
-  return group.isOpening && axis === "pitch";
 }
 
 /** Degrees, as people know them; openings in percent. */

@@ -5,8 +5,9 @@ import {Stepper} from "../controls/stepper";
 import {el} from "../dom";
 import type {Store} from "../store";
 import type {DraftEditor} from "../teach/draft_editor";
-import {changeKeyframe, kMinDuration, moveKeyframe, removeKeyframe} from "../teach/motion_draft";
+import {changeKeyframe, kMinDuration, moveKeyframe, onlyKeyframe, removeKeyframe} from "../teach/motion_draft";
 import type {DraftKeyframe} from "../teach/motion_draft";
+import type {Teach} from "../teach/teach";
 import {say} from "../text/texts";
 import {kDeleteIcon, kDownIcon, kPlayIcon, kUpIcon, kAddIcon} from "./icons";
 
@@ -14,13 +15,6 @@ import {kDeleteIcon, kDownIcon, kPlayIcon, kUpIcon, kAddIcon} from "./icons";
 const kCoarse = 2;
 const kSmallStep = 0.1;
 const kLargeStep = 0.5;
-
-export interface KeyframeActions {
-  /** Takes the pose that the robot is in. */
-  capture(index: number): void;
-  /** Lets the robot go to the pose. */
-  show(index: number): void;
-}
 
 /** The next shorter or longer time, s. @param direction -1 or 1. */
 export function steppedTime(time: number, direction: number): number {
@@ -40,8 +34,7 @@ export class KeyframeList {
   private readonly rows: Row[] = [];
   private opened = -1;
 
-  constructor(private readonly store: Store, private readonly editor: DraftEditor,
-              private readonly act: KeyframeActions) {
+  constructor(private readonly store: Store, private readonly editor: DraftEditor, private readonly teach: Teach) {
     store.watch((state) => state.draft, () => this.show());
     store.watch((state) => state.motionFault, () => this.show());
   }
@@ -84,15 +77,15 @@ export class KeyframeList {
   private makeRow(index: number): Row {
     const number = index + 1;
     const title = button({class: "pose-title", "aria-expanded": "false"}, () => this.open(index), say("teach.pose", {number}));
-    const duration = new Stepper("", (direction) => this.setTime(index, "duration", direction));
-    const pause = new Stepper("", (direction) => this.setTime(index, "pause", direction));
+    const duration = new Stepper(say("motion.duration", {number}), true, (direction) => this.setTime(index, "duration", direction));
+    const pause = new Stepper(say("motion.pause"), true, (direction) => this.setTime(index, "pause", direction));
     const up = iconButton("button small", kUpIcon, say("motion.earlier"), () => this.move(index, -1));
     const down = iconButton("button small", kDownIcon, say("motion.later"), () => this.move(index, 1));
     const more = el("div", {class: "pose-more"},
       el("div", {class: "row"}, el("span", {}, say("motion.pause")), pause.element),
       el("div", {class: "pose-buttons"}, up, down,
-         iconButton("button small", kPlayIcon, say("motion.show"), () => this.act.show(index)),
-         iconButton("button small", kAddIcon, say("motion.capture"), () => this.act.capture(index)),
+         iconButton("button small", kPlayIcon, say("motion.show"), () => this.teach.play(onlyKeyframe(this.editor.draft, index))),
+         iconButton("button small", kAddIcon, say("motion.capture"), () => this.teach.capture(index)),
          iconButton("button small", kDeleteIcon, say("motion.remove"), () =>
              this.editor.change(removeKeyframe(this.editor.draft, index)))));
     const element = el("li", {}, el("div", {class: "pose-row"}, title, duration.element), more);
@@ -100,13 +93,12 @@ export class KeyframeList {
       title.setAttribute("aria-expanded", String(isOpen));
       element.classList.toggle("bad", isBad);
       more.hidden = !isOpen;
-      showTime(duration, keyframe.duration, say("motion.duration", {number}));
-      showTime(pause, keyframe.pause, say("motion.pause"));
+      duration.show(secondsInWords(keyframe.duration));
+      pause.show(secondsInWords(keyframe.pause));
     }};
   }
 }
 
-function showTime(stepper: Stepper, seconds: number, what: string): void {
-  stepper.show(say("motion.seconds", {value: seconds.toFixed(1)}), say("motion.shorter", {what}),
-               say("motion.longer", {what}), what);
+export function secondsInWords(seconds: number): string {
+  return say("motion.seconds", {value: seconds.toFixed(1)});
 }

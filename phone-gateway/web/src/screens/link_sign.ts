@@ -1,5 +1,6 @@
 /** The link and its age: three bars and the delay; a touch says it in words. */
 import {el, setText} from "../dom";
+import type {Messages} from "../messages";
 import {isStale} from "../store";
 import type {AppState, Store} from "../store";
 import {say} from "../text/texts";
@@ -7,8 +8,12 @@ import {say} from "../text/texts";
 /** Above this the age of the state is shown, ms. Chosen: twice what a person perceives as a delay. */
 export const kShownAgeMs = 300;
 
-export function linkSign(store: Store, explain: () => void): HTMLButtonElement {
+export function linkSign(store: Store, messages: Messages): HTMLButtonElement {
   const text = el("bdi", {dir: "ltr"});
+  const explain = (): void => {
+    const words = linkInWords(store.get());
+    messages.show("info", linkQuality(store.get()) === "poor" ? `${words}. ${say("drive.linkPoor")}` : words);
+  };
   const sign = el("button", {class: "link", onclick: explain},
                   el("span", {class: "bars", "aria-hidden": "true"}, el("i"), el("i"), el("i")), text);
   const show = (): void => {
@@ -18,8 +23,7 @@ export function linkSign(store: Store, explain: () => void): HTMLButtonElement {
     sign.dataset["quality"] = linkQuality(state);
     sign.setAttribute("aria-label", linkInWords(state));
   };
-  store.watch((state) => state.latencyMs, show);
-  store.watch(ageWhileSilent, show);
+  store.watch((state) => `${state.latencyMs} ${ageWhileSilent(state)}`, show);
   return sign;
 }
 

@@ -2,7 +2,7 @@
 import {TiltSensor} from "../controls/tilt_sensor";
 import {el} from "../dom";
 import {getLanguage, kLanguageNames, kLanguages, say} from "../text/texts";
-import type {Language, TextKey} from "../text/texts";
+import type {TextKey} from "../text/texts";
 import type {Actions} from "./actions";
 import {sheet} from "./sheet";
 
@@ -16,11 +16,15 @@ export class MenuSheet {
                                           onclick: this.closeAnd(() => this.act.changeRobot())}, say("lobby.open"));
 
   constructor(isSwapped: boolean, private readonly act: Actions) {
-    const language = el("select", {onchange: () => act.setLanguage(language.value as Language)},
+    // Words are put in place once; another language starts the page again, which connects by itself.
+    const language = el("select", {onchange: () => {
+      act.keep({language: language.value});
+      location.reload();
+    }},
       ...kLanguages.map((tag) => el("option", {value: tag, selected: tag === getLanguage()},
                                     kLanguageNames[tag])));
     this.element = sheet("settings", say("menu.title"), null, this.tiltSwitch(),
-      switchRow(say("menu.swap"), "", isSwapped, false, (input) => act.setSwapped(input.checked)),
+      switchRow(say("menu.swap"), "", isSwapped, false, (input) => act.keep({isSwapped: input.checked})),
       el("label", {class: "row"}, el("span", {}, say("menu.language")), language),
       el("h3", {}, say("body.title")), this.condition,
       el("h3", {}, say("menu.help")),
@@ -58,8 +62,8 @@ export class MenuSheet {
   }
 }
 
-function switchRow(label: string, help: string, isOn: boolean, isDisabled: boolean,
-                   changed: (input: HTMLInputElement) => void): HTMLElement {
+export function switchRow(label: string, help: string, isOn: boolean, isDisabled: boolean,
+                          changed: (input: HTMLInputElement) => void): HTMLElement {
   const input = el("input", {type: "checkbox", role: "switch", checked: isOn, disabled: isDisabled,
                              onchange: () => changed(input)});
   return el("label", {class: "row"},

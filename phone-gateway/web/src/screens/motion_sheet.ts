@@ -8,45 +8,37 @@ import {mirror, setRepetitions, setSpeed, timeOf, toMotion} from "../teach/motio
 import type {MotionDraft} from "../teach/motion_draft";
 import type {MotionHost} from "../teach/motion_host";
 import {freeName, motionName} from "../teach/motion_name";
+import type {Teach} from "../teach/teach";
 import {say, sayName} from "../text/texts";
 import {kCloseIcon, kMirrorIcon, kPlayIcon, kStopIcon, kUndoIcon} from "./icons";
-import {KeyframeList} from "./keyframe_list";
-import type {KeyframeActions} from "./keyframe_list";
+import {KeyframeList, secondsInWords} from "./keyframe_list";
 import {Note} from "./note";
 import {SavedList} from "./saved_list";
 import {sheet} from "./sheet";
-import {faultInWords} from "./teach_bar";
 
 const kSpeedStep = 0.1;
-
-export interface MotionSheetActions extends KeyframeActions {
-  play(): void;
-  repair(): void;
-  stop(): void;
-}
 
 export class MotionSheet {
   readonly element: HTMLDialogElement;
   private readonly name = el("input", {name: "motion-name", maxlength: 40, autocomplete: "off", enterkeyhint: "done"});
-  private readonly save: HTMLButtonElement;
+  private readonly save = el("button", {class: "button primary", type: "submit"}, say("teach.save"));
   private readonly note = new Note();
   private readonly draft: HTMLElement;
   private readonly none = el("p", {class: "quiet"}, say("motion.none"));
-  private readonly speed = new Stepper(say("motion.speed"), (direction) => this.changeSpeed(direction));
-  private readonly repeat = new Stepper(say("motion.repeat"), (direction) => this.changeRepetitions(direction));
-  private readonly undo: HTMLButtonElement;
+  private readonly speed = new Stepper(say("motion.speed"), false, (direction) => this.changeSpeed(direction));
+  private readonly repeat = new Stepper(say("motion.repeat"), false, (direction) =>
+      this.editor.change(setRepetitions(this.editor.draft, this.editor.draft.repetitions + direction)));
+  private readonly undo = iconButton("button small", kUndoIcon, say("motion.undo"), () => this.editor.undo());
   private readonly length = el("small", {class: "quiet"});
   private readonly isDraftShown = () => this.store.get().draft.keyframes.length > 0;
 
   constructor(private readonly store: Store, private readonly editor: DraftEditor, private readonly host: MotionHost,
-              private readonly act: MotionSheetActions) {
-    this.save = el("button", {class: "button primary", type: "submit"}, say("teach.save"));
+              private readonly teach: Teach) {
     this.name.addEventListener("input", () => this.editor.note({...this.editor.draft, name: this.name.value}));
-    this.undo = iconButton("button small", kUndoIcon, say("motion.undo"), () => editor.undo());
     this.draft = this.makeDraft();
     const saved = new SavedList(store, editor, host, () => this.element.close(), () => this.element.scrollTop = 0);
     const stop = el("button", {class: "button small stop-small"}, icon(kStopIcon), say("drive.stop"));
-    onPressDown(stop, () => act.stop());
+    onPressDown(stop, () => teach.stop());
     this.element = sheet("motions", say("motion.title"), stop, this.none, this.draft, saved.element);
     store.watch((state) => state.draft, (draft) => this.show(draft));
     store.watch((state) => state.canUndoDraft, () => this.show(store.get().draft));
@@ -68,25 +60,16 @@ export class MotionSheet {
   }
 
   private makeDraft(): HTMLElement {
-    const {editor, act} = this;
+    const {editor, teach} = this;
     const form = el("form", {class: "motion-name", onsubmit: (event: Event) => {
       event.preventDefault();
       void this.saveDraft(false);
     }}, el("label", {}, el("span", {class: "label"}, say("motion.name")), this.name), this.save);
-    const play = iconButton("button small", kPlayIcon, say("teach.play"), () => {
-      this.element.close();
-      act.play();
-    });
+    const play = iconButton("button small", kPlayIcon, say("teach.play"), () => teach.play());
     const mirrorButton = iconButton("button small", kMirrorIcon, say("motion.mirror"), () =>
         editor.change(mirror(editor.draft, this.store.get().robot?.joints ?? [])));
     const clear = iconButton("button small", kCloseIcon, say("motion.clear"), () => editor.clear());
-    const list = new KeyframeList(this.store, editor, {
-      capture: (index) => act.capture(index),
-      show: (index) => {
-        this.element.close();
-        act.show(index);
-      },
-    });
+    const list = new KeyframeList(this.store, editor, teach);
     return el("section", {class: "draft", "aria-label": say("motion.new")}, form, this.note.element, list.element,
       el("div", {class: "row"}, el("span", {}, say("motion.speed"), this.length), this.speed.element),
       el("div", {class: "row"}, el("span", {}, say("motion.repeat")), this.repeat.element),
@@ -101,19 +84,14 @@ export class MotionSheet {
     this.none.hidden = this.isDraftShown();
     this.undo.disabled = !canUndoDraft;
     if (this.name.value !== draft.name) this.name.value = draft.name;
-    const speed = say("motion.speed");
-    this.speed.show(say("motion.percent", {value: Math.round(draft.speed * 100)}),
-                    say("motion.less", {what: speed}), say("motion.more", {what: speed}));
-    const repeat = say("motion.repeat");
-    this.repeat.show(say("motion.times", {value: draft.repetitions}),
-                     say("motion.less", {what: repeat}), say("motion.more", {what: repeat}));
-    this.length.textContent = say("motion.seconds", {value: (timeOf(draft) * draft.repetitions).toFixed(1)});
+    this.speed.show(say("motion.percent", {value: Math.round(draft.speed * 100)}));
+    this.repeat.show(say("motion.times", {value: draft.repetitions}));
+    this.length.textContent = secondsInWords(timeOf(draft) * draft.repetitions);
   }
 
   private showFault(fault: MotionFault | null): void {
     this.note.hide();
-    if (!fault || fault.isUpload) return;
-    this.note.tell("bad", faultInWords(fault), fault.repaired ? fault.repairText : "", () => this.act.repair());
+    if (fault && !fault.isUpload) this.note.tellFault(fault, () => this.teach.repair());
   }
 
   private async saveDraft(isReplacing: boolean): Promise<void> {
@@ -135,10 +113,5 @@ export class MotionSheet {
   private changeSpeed(direction: number): void {
     const {draft} = this.editor;
     this.editor.change(setSpeed(draft, Math.round((draft.speed + direction * kSpeedStep) * 10) / 10));
-  }
-
-  private changeRepetitions(direction: number): void {
-    const {draft} = this.editor;
-    this.editor.change(setRepetitions(draft, draft.repetitions + direction));
   }
 }

@@ -10,7 +10,6 @@ import type {MotionHost, MotionSource} from "../teach/motion_host";
 import {say, sayName} from "../text/texts";
 import {kDeleteIcon, kDownloadIcon, kEditIcon, kPlayIcon, kUploadIcon} from "./icons";
 import {Note} from "./note";
-import {faultInWords} from "./teach_bar";
 
 export class SavedList {
   readonly element: HTMLElement;
@@ -33,9 +32,8 @@ export class SavedList {
     store.watch((state) => state.savedMotions, (names) => this.show(names));
     store.watch((state) => state.motionFault, (fault) => {
       if (!fault?.isUpload) return;
-      const {repaired} = fault;
-      this.note.tell("bad", faultInWords(fault), repaired ? say("motion.openRepaired") : "", () => {
-        this.editor.change(fromMotion(repaired!));
+      this.note.tellFault({...fault, repairText: say("motion.openRepaired")}, () => {
+        this.editor.change(fromMotion(fault.repaired!));
         this.opened();
       });
     });

@@ -1,8 +1,14 @@
 /** What the robot says, and the colours of its lights: one sheet, over everything. */
-import {el, icon} from "../dom";
+import type {Commander} from "../commander";
+import {cssColor, el, icon} from "../dom";
+import type {UseCaseValue} from "../protocol/codec";
+import {Say_Operation} from "../protocol/generated/remote_pb";
+import type {SpeechSettings} from "../speech/speech_settings";
+import type {Store} from "../store";
 import {getLanguage, say, sayName} from "../text/texts";
 import type {TextKey} from "../text/texts";
 import {kCloseIcon} from "./icons";
+import {switchRow} from "./menu_sheet";
 import {sheet} from "./sheet";
 
 const kMaxBytes = 1000;
@@ -12,39 +18,25 @@ const kColors: readonly [TextKey, number][] = [
   ["lights.off", 0x000000],
 ];
 
-export interface SpeechActions {
-  say(text: string, language: string): void;
-  stop(): void;
-  setLights(names: readonly string[], rgb: number): void;
-  keep(phrase: string): void;
-  forget(phrase: string): void;
-  setLanguage(language: string): void;
-  setPlaying(isOn: boolean): void;
-}
-
 export class SpeechSheet {
   readonly element: HTMLDialogElement;
   private readonly text: HTMLTextAreaElement;
   private readonly fault = el("p", {class: "speech-fault", role: "alert", hidden: true});
-  private readonly language: HTMLSelectElement;
+  private readonly language = el("select", {"aria-label": say("speech.language"),
+                                            onchange: () => this.keep({language: this.language.value})});
   private readonly phrases = el("ul", {class: "phrases", "aria-label": say("speech.phrases")});
   private readonly lights: HTMLElement;
-  private readonly which: HTMLSelectElement;
-  private lightNames: readonly string[] = [];
+  private readonly which = el("select");
 
-  constructor(isPlaying: boolean, private readonly actions: SpeechActions) {
+  /** @param keep  remembers settings. */
+  constructor(private readonly store: Store, private readonly commander: Commander,
+              private readonly keep: (settings: Partial<SpeechSettings>) => void) {
     this.text = el("textarea", {rows: 2, "aria-label": say("speech.text"), placeholder: say("speech.placeholder"),
-                                enterkeyhint: "send", oninput: () => this.check()});
-    this.text.addEventListener("keydown", (event) => {
+                                enterkeyhint: "send", oninput: () => this.check(), onkeydown: (event: KeyboardEvent) => {
       if (event.key !== "Enter" || event.shiftKey) return;
       event.preventDefault();
       this.sayText();
-    });
-    this.language = el("select", {"aria-label": say("speech.language"),
-                                  onchange: () => actions.setLanguage(this.language.value)});
-    this.which = el("select", {});
-    const playing = el("input", {type: "checkbox", role: "switch", checked: isPlaying,
-                                 onchange: () => actions.setPlaying(playing.checked)});
+    }});
     this.lights = el("section", {class: "lights"},
       el("label", {class: "row"}, el("span", {}, say("lights.which")), this.which),
       el("div", {class: "swatches", role: "group", "aria-label": say("lights.title")},
@@ -52,51 +44,68 @@ export class SpeechSheet {
     this.element = sheet("speech-sheet", say("speech.title"), null, this.text, this.fault,
       el("div", {class: "speech-buttons"},
          el("button", {class: "button primary speech-say", onclick: () => this.sayText()}, say("speech.say")),
-         el("button", {class: "button speech-stop", onclick: () => actions.stop()}, say("speech.stop")),
+         el("button", {class: "button speech-stop", onclick: () => this.command({operation: Say_Operation.STOP})}, say("speech.stop")),
          el("button", {class: "button speech-save", onclick: () => this.keepText()}, say("speech.save"))),
       this.phrases,
       el("label", {class: "row"}, el("span", {}, say("speech.language")), this.language),
-      el("label", {class: "row"}, el("span", {}, say("speech.here"),
-                                     el("small", {class: "quiet"}, say("speech.hereHelp"))), playing),
+      switchRow(say("speech.here"), say("speech.hereHelp"), store.get().speech.isPlaying, false,
+                ({checked}) => keep({isPlaying: checked})),
       el("h3", {}, say("lights.title")), this.lights);
+    store.watch(({speech}) => speech.phrases, () => this.showPhrases());
+    store.watch(({robot}) => robot, (robot) => {
+      this.showLanguages(robot?.languages ?? []);
+      this.showLights((robot?.lights ?? []).map(({name}) => name));
+    });
   }
 
   open(): void {
     this.element.showModal();
   }
 
-  /** @param tags  BCP 47. @param chosen  one of them; else it is the page's, or English. */
-  setLanguages(tags: readonly string[], chosen: string): void {
+  /** @param tags  BCP 47. */
+  private showLanguages(tags: readonly string[]): void {
     const names = new Intl.DisplayNames([getLanguage()], {type: "language"});
-    const selected = [chosen, getLanguage(), "en"].find((tag) => tags.includes(tag));
+    const selected = [this.store.get().speech.language, getLanguage(), "en"].find((tag) => tags.includes(tag));
     const options = tags.map((tag) => ({tag, name: names.of(tag) ?? tag}))
         .sort((a, b) => a.name.localeCompare(b.name));
     this.language.replaceChildren(...options.map(({tag, name}) =>
         el("option", {value: tag, selected: tag === selected, lang: tag}, name)));
   }
 
-  setLights(names: readonly string[]): void {
-    this.lightNames = names;
+  private showLights(names: readonly string[]): void {
     this.lights.hidden = names.length === 0;
     this.which.replaceChildren(el("option", {value: ""}, say("lights.all")),
                                ...names.map((name) => el("option", {value: name}, sayName("light", name))));
   }
 
-  setPhrases(phrases: readonly string[]): void {
-    this.phrases.replaceChildren(...phrases.map((phrase) => el("li", {class: "phrase"},
-      el("button", {class: "chip", onclick: () => this.actions.say(phrase, this.language.value)}, phrase),
+  private get keptPhrases(): readonly string[] {
+    return this.store.get().speech.phrases ?? [say("speech.phraseHello"), say("speech.phraseThanks"), say("speech.phrasePass")];
+  }
+
+  private showPhrases(): void {
+    this.phrases.replaceChildren(...this.keptPhrases.map((phrase) => el("li", {class: "phrase"},
+      el("button", {class: "chip", onclick: () => this.sayText(phrase)}, phrase),
       el("button", {class: "phrase-forget", "aria-label": say("speech.forget", {phrase}),
-                    onclick: () => this.actions.forget(phrase)}, icon(kCloseIcon)))));
+                    onclick: () => this.keep({phrases: this.without(phrase)})}, icon(kCloseIcon)))));
+  }
+
+  private without(phrase: string): string[] {
+    return this.keptPhrases.filter((other) => other !== phrase);
+  }
+
+  private command(value: UseCaseValue<"say">): void {
+    void this.commander.command({case: "say", value});
   }
 
   private swatch(key: TextKey, rgb: number): HTMLElement {
-    const color = `#${rgb.toString(16).padStart(6, "0")}`;
-    return el("button", {class: "swatch", style: `--swatch: ${color}`, "aria-label": say(key), title: say(key),
-                         onclick: () => this.actions.setLights(this.chosenLights(), rgb)});
+    return el("button", {class: "swatch", style: `--swatch: ${cssColor(rgb)}`, "aria-label": say(key), title: say(key),
+                         onclick: () => this.paint(rgb)});
   }
 
-  private chosenLights(): readonly string[] {
-    return this.which.value ? [this.which.value] : this.lightNames;
+  /** Gives the chosen light a color, or all of them. */
+  private paint(rgb: number): void {
+    const lightNames = this.which.value ? [this.which.value] : this.store.get().robot?.lights.map(({name}) => name) ?? [];
+    void this.commander.command({case: "setLights", value: {lightNames, lightRgb: lightNames.map(() => rgb)}});
   }
 
   /** @return the text, or null if there is none that can be said. */
@@ -108,13 +117,12 @@ export class SpeechSheet {
     return text && bytes <= kMaxBytes ? text : null;
   }
 
-  private sayText(): void {
-    const text = this.check();
-    if (text) this.actions.say(text, this.language.value);
+  private sayText(text = this.check()): void {
+    if (text) this.command({text, language: this.language.value});
   }
 
   private keepText(): void {
     const text = this.check();
-    if (text) this.actions.keep(text);
+    if (text) this.keep({phrases: [text, ...this.without(text)]});
   }
 }

@@ -6,9 +6,10 @@ import {scoreboard} from "../match/scoreboard";
 import {isByItself, playInWords} from "../play/play_words";
 import {Mode} from "../protocol/generated/remote_pb";
 import type {Control} from "../protocol/generated/remote_pb";
+import {nameOf} from "../protocol/names";
 import {isStale} from "../store";
 import type {Store} from "../store";
-import {activityInWords, kModeNames, modeInWords} from "../text/activity";
+import {activityInWords, modeInWords} from "../text/activity";
 import {batteryInWords, warningsInWords} from "../text/body";
 import {say} from "../text/texts";
 import {ageWhileSilent} from "./link_sign";
@@ -52,7 +53,7 @@ export class Status {
     this.body.hidden = !state?.body;
     setText(this.battery, batteryInWords(state?.body));
     setText(this.warning, warningsInWords(state?.body, robot).join(" "));
-    const mode = state ? kModeNames[state.mode] ?? "" : "";
+    const mode = state ? nameOf(Mode, state.mode, "no-robot") : "";
     if (this.element.dataset["mode"] !== mode) this.element.dataset["mode"] = mode;
   }
 

@@ -5,6 +5,7 @@ import {driveFromTilt} from "../controls/tilt";
 import type {Tilt} from "../controls/tilt";
 import type {TiltSensor} from "../controls/tilt_sensor";
 import type {WalkSender} from "../controls/walk_sender";
+import type {Store} from "../store";
 import {say} from "../text/texts";
 
 const kNoStick = {right: 0, up: 0};
@@ -16,21 +17,20 @@ export class Sticks {
   readonly turnStick: Joystick;
   private neutral: Tilt | null = null;
 
-  constructor(private readonly walk: WalkSender, private readonly tilt: TiltSensor) {
+  constructor(store: Store, private readonly walk: WalkSender, private readonly tilt: TiltSensor) {
     this.walkStick = new Joystick(say("drive.walk"), "walk", false, () => this.changed(), ["W", "A", "S", "D"]);
     this.turnStick = new Joystick(say("drive.turn"), "turn", true, () => this.changed(), ["", "Q", "", "E"]);
     tilt.onChange = () => this.changed();
     tilt.onTurn = () => this.walkStick.release();
+    store.watch((state) => state.isTilting, (isOn) => {
+      this.walkStick.relabel(say(isOn ? "drive.holdTilt" : "drive.walk"));
+      this.walkStick.element.classList.toggle("tilting", isOn);
+    });
   }
 
   release(): void {
     this.walkStick.release();
     this.turnStick.release();
-  }
-
-  setTilt(isOn: boolean): void {
-    this.walkStick.relabel(say(isOn ? "drive.holdTilt" : "drive.walk"));
-    this.walkStick.element.classList.toggle("tilting", isOn);
   }
 
   private changed(): void {

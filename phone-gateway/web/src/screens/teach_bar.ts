@@ -7,34 +7,25 @@ import type {State} from "../protocol/generated/remote_pb";
 import type {MotionFault, Store} from "../store";
 import {keyframeAt} from "../teach/motion_draft";
 import {kTemporaryName} from "../teach/motion_name";
+import type {Teach} from "../teach/teach";
 import {say} from "../text/texts";
-import {kAddIcon, kCloseIcon, kListIcon, kPlayIcon, kSaveIcon} from "./icons";
-
-export interface TeachBarActions {
-  addPose(): void;
-  play(): void;
-  /** Opens the sheet of motions. */
-  open(): void;
-  /** Takes the repaired motion of the fault shown. */
-  repair(): void;
-}
+import {kAddIcon, kListIcon, kPlayIcon, kSaveIcon} from "./icons";
+import {Note} from "./note";
 
 export class TeachBar {
   readonly element: HTMLElement;
-  private readonly fault = el("div", {class: "teach-fault", role: "alert", hidden: true});
+  private readonly fault = new Note();
   private readonly dots = el("ol", {class: "pose-dots", tabindex: 0, "aria-label": say("teach.poses")});
   private readonly status = el("p", {class: "unseen", role: "status"});
-  private readonly play: HTMLButtonElement;
   private readonly playText = el("span", {}, say("teach.play"));
-  private readonly open: HTMLButtonElement;
+  private readonly play = iconButton("button small teach-play", kPlayIcon, this.playText, () => this.teach.play());
+  private readonly open = button({class: "button small teach-open"}, () => this.teach.sheet.open());
   private current = -1;
 
-  constructor(private readonly store: Store, private readonly act: TeachBarActions) {
-    this.play = iconButton("button small teach-play", kPlayIcon, this.playText, () => act.play());
-    this.open = button({class: "button small teach-open"}, () => act.open());
-    this.element = el("section", {class: "teach-bar", "aria-label": say("teach.bar")}, this.fault, this.status, this.dots,
+  constructor(private readonly store: Store, private readonly teach: Teach) {
+    this.element = el("section", {class: "teach-bar", "aria-label": say("teach.bar")}, this.fault.element, this.status, this.dots,
       el("div", {class: "teach-buttons"},
-         iconButton("button small teach-add", kAddIcon, say("teach.add"), () => act.addPose()), this.play, this.open));
+         iconButton("button small teach-add", kAddIcon, say("teach.add"), () => teach.addPose()), this.play, this.open));
     store.watch((state) => state.draft.keyframes.length, (number) => this.showNumber(number));
     store.watch((state) => state.isCheckingMotion, (isChecking) => this.showChecking(isChecking));
     store.watch((state) => state.motionFault, (fault) => this.showFault(fault));
@@ -61,15 +52,10 @@ export class TeachBar {
 
   private showFault(fault: MotionFault | null): void {
     // One of a file is shown in the sheet, where the file was chosen.
-    const isShown = fault !== null && !fault.isUpload;
-    this.fault.hidden = !isShown;
-    for (const [i, dot] of [...this.dots.children].entries()) {
-      dot.classList.toggle("bad", isShown && i === fault.keyframe);
-    }
-    if (!isShown) return;
-    const close = button({class: "round", "aria-label": say("teach.dismiss")}, () => this.store.set({motionFault: null}), icon(kCloseIcon));
-    const repair = fault.repaired ? [button({class: "button small primary"}, () => this.act.repair(), fault.repairText)] : [];
-    this.fault.replaceChildren(el("p", {}, faultInWords(fault)), close, ...repair);
+    const shown = fault?.isUpload ? null : fault;
+    for (const [i, dot] of [...this.dots.children].entries()) dot.classList.toggle("bad", i === shown?.keyframe);
+    this.fault.hide();
+    if (shown) this.fault.tellFault(shown, () => this.teach.repair());
   }
 
   /** Marks the pose that the robot goes to while the draft is played. */
@@ -82,9 +68,4 @@ export class TeachBar {
     this.dots.children[current]?.classList.add("current");
     this.current = current;
   }
-}
-
-/** A fault with the pose at which it shows. */
-export function faultInWords({keyframe, text}: MotionFault): string {
-  return keyframe < 0 ? text : say("teach.faultAt", {number: keyframe + 1, text});
 }

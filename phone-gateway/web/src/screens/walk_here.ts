@@ -2,7 +2,6 @@
 import {walkTo} from "../controls/ground_target";
 import type {RelativePose} from "../controls/ground_target";
 import {Offer} from "../controls/offer";
-import {el} from "../dom";
 import type {Stage} from "../robot/stage";
 import {say} from "../text/texts";
 
@@ -12,9 +11,10 @@ const kMaxDistance = 3;
 const kMinDistance = 0.15;
 
 export class WalkHere {
-  readonly element = el("button", {class: "button primary walk-here", hidden: true, onclick: () => this.chosen()}, say("drive.walkHere"));
   private spot: {x: number; y: number} | null = null;
-  private readonly offer = new Offer(this.element, () => this.forget());
+  private readonly offer = new Offer("walk-here", say("drive.walkHere"),
+      [{name: "walk", label: say("drive.walkHere"), act: () => this.chosen()}], () => this.forget());
+  readonly element = this.offer.element;
 
   constructor(private readonly stage: Stage, private readonly go: (pose: RelativePose) => void) {}
 
@@ -28,12 +28,10 @@ export class WalkHere {
     this.stage.floor.mark(spot, robot);
     this.stage.outdate();
     // As it is now: a button that sways with the view is hard to hit.
-    this.offer.show(x, y, this.stage.size.width);
+    this.offer.show(x, y, this.stage.canvas.clientWidth);
   }
 
-  clear(): void {
-    this.offer.clear();
-  }
+  readonly clear = (): void => this.offer.clear();
 
   private forget(): void {
     this.spot = null;
@@ -43,9 +41,7 @@ export class WalkHere {
 
   private chosen(): void {
     const {spot, stage} = this;
-    this.clear();
-    if (!spot) return;
-    const pose = walkTo(spot, stage.orbit, stage.heading);
+    const pose = spot && walkTo(spot, stage.orbit, stage.heading);
     if (pose) this.go(pose);
   }
 }

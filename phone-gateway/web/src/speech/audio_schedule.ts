@@ -6,20 +6,13 @@ const kDelay = 0.08;
 /** More than this is never ahead, s: the speaker is 0.5 s ahead at most. */
 const kMaxAhead = 2;
 
-/** What is to be done with a piece: play it at a time on the player's clock, s, or stop everything first. */
-export interface Placement {
-  /** What was scheduled before is not to be played. */
-  isStop: boolean;
-  /** Nothing is to be played if NaN. */
-  start: number;
-}
-
 export class AudioSchedule {
   private speech = 0;
   private end = 0;
 
-  /** @param now  s on the player's clock. */
-  place(audio: Pick<Audio, "speech" | "sampleRate" | "samples" | "isLast">, now: number): Placement {
+  /** What is to be done with a piece. @param now  s on the player's clock.
+   * @return isStop: what was scheduled before is not to be played; start: when to play it, s, NaN: nothing is to be played. */
+  place(audio: Pick<Audio, "speech" | "sampleRate" | "samples" | "isLast">, now: number) {
     const isNew = audio.speech !== this.speech;
     this.speech = audio.speech;
     const numSamples = Math.floor(audio.samples.length / 2);

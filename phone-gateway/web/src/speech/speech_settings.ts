@@ -17,17 +17,15 @@ export interface SpeechSettings {
 export function loadSpeechSettings(storage: Storage | null): SpeechSettings {
   const {phrases, language, isPlaying} = recall<SpeechSettings>(storage, kKey) ?? {};
   return {
-    phrases: Array.isArray(phrases) ? phrases.filter((phrase) => typeof phrase === "string").slice(0, kMaxPhrases) : null,
+    phrases: Array.isArray(phrases) ? phrases.filter((phrase) => typeof phrase === "string") : null,
     language: typeof language === "string" ? language : "",
     isPlaying: isPlaying === true,
   };
 }
 
-export function saveSpeechSettings(storage: Storage | null, settings: SpeechSettings): void {
-  keep(storage, kKey, settings);
-}
-
-/** Puts a phrase in front of those that are kept. */
-export function keepPhrase(phrases: readonly string[], phrase: string): string[] {
-  return [phrase, ...phrases.filter((other) => other !== phrase)].slice(0, kMaxPhrases);
+/** @return the settings as they are kept, with the newest phrases. */
+export function saveSpeechSettings(storage: Storage | null, settings: SpeechSettings): SpeechSettings {
+  const kept = {...settings, phrases: settings.phrases?.slice(0, kMaxPhrases) ?? null};
+  keep(storage, kKey, kept);
+  return kept;
 }

@@ -1,6 +1,6 @@
 /** Which joint groups make up a limb: all that hang on the same branch of the robot's root link. */
 import type {JointGroup} from "../protocol/generated/remote_pb";
-import {jointOfAxis, kAxes} from "../robot/joint_balls";
+import {jointsOf} from "../robot/joint_axes";
 import type {Urdf} from "../robot/urdf";
 
 /** Names of the groups of one limb, in the robot's order. @param name  of one of them; unknown: none. */
@@ -12,8 +12,7 @@ export function limbOf(urdf: Urdf, groups: readonly JointGroup[], name: string):
 
 /** Names of the joints of some groups. */
 export function jointsOfGroups(groups: readonly JointGroup[], names: readonly string[]): string[] {
-  return groups.filter(({name}) => names.includes(name))
-      .flatMap((group) => kAxes.map((axis) => jointOfAxis(group, axis))).filter((joint) => joint !== "");
+  return groups.filter(({name}) => names.includes(name)).flatMap(jointsOf);
 }
 
 /** Names of the joints that a change of a group moves. @param isMirrored  the other side moves, too. */
@@ -27,7 +26,7 @@ export function jointsOfChange(groups: readonly JointGroup[], joints: readonly {
 /** The joint of the root link that carries a group; empty if the URDF does not have its joints. */
 function branchOf(urdf: Urdf, group: JointGroup): string {
   const byChild = new Map(urdf.joints.map((joint) => [joint.child, joint]));
-  const names = kAxes.map((axis) => jointOfAxis(group, axis));
+  const names = jointsOf(group);
   let joint = urdf.joints.find((one) => names.includes(one.name));
   for (let next = joint; next; next = byChild.get(next.parent)) joint = next;
   return joint?.name ?? "";

@@ -1,5 +1,6 @@
 /** A motion while it is being taught: poses with times. Pure; each change returns another draft. */
 import {create} from "@bufbuild/protobuf";
+import {clamp} from "../clamp";
 import {KeyframeSchema, MotionSchema} from "../protocol/generated/remote_pb";
 import type {Joint, Motion} from "../protocol/generated/remote_pb";
 
@@ -205,8 +206,4 @@ function mirrorPose(pose: Pose, joints: readonly Joint[]): Pose {
     if (pose[mirrorJoint] === undefined) delete mirrored[name];
   }
   return mirrored;
-}
-
-function clamp(value: number, lower: number, upper: number): number {
-  return Math.min(Math.max(value, lower), upper);
 }

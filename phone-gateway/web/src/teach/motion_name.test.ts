@@ -14,5 +14,6 @@ describe("freeName", () => {
   it("counts up until a name is free", () => {
     expect(freeName("My motion", [])).toBe("My-motion");
     expect(freeName("My motion", ["My-motion", "My-motion-2"])).toBe("My-motion-3");
+    expect(freeName("手", ["motion"])).toBe("motion-2");
   });
 });

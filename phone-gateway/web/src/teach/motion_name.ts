@@ -10,9 +10,9 @@ export function motionName(text: string): string {
       .replace(/[^A-Za-z0-9_-]+/g, "-").replace(/^[-_]+|-+$/g, "").slice(0, kMaxLength);
 }
 
-/** "wave", or the first of "wave-2", "wave-3" that is free. @param text  as a person would write it. */
+/** "wave", or the first of "wave-2", "wave-3" that is free. @param text  as a person would write it; "motion" if nothing is left. */
 export function freeName(text: string, used: readonly string[]): string {
-  const name = motionName(text);
+  const name = motionName(text) || "motion";
   for (let i = 1; ; i++) {
     const tried = i === 1 ? name : `${name}-${i}`;
     if (!used.includes(tried)) return tried;

@@ -12,7 +12,7 @@ import {say} from "../text/texts";
 import {DraftEditor} from "./draft_editor";
 import {HandGuide} from "./hand_guide";
 import {jointsOfChange, jointsOfGroups, limbOf} from "./limbs";
-import {addPose, changeKeyframe, kMaxKeyframes, onlyKeyframe, repair, touch} from "./motion_draft";
+import {addPose, changeKeyframe, kMaxKeyframes, repair, touch} from "./motion_draft";
 import type {Pose} from "./motion_draft";
 import {MotionHost} from "./motion_host";
 
@@ -26,21 +26,12 @@ export class Teach {
 
   /** @param stop  ends every motion of the robot. */
   constructor(private readonly store: Store, commander: Commander, private readonly messages: Messages,
-              private readonly view: RobotView, storage: Storage | null, stop: () => void) {
+              private readonly view: RobotView, storage: Storage | null, readonly stop: () => void) {
     this.editor = new DraftEditor(store, storage);
     this.guide = new HandGuide(store, commander);
     this.host = new MotionHost(store, commander, () => this.guide.stiffen());
-    const shared = {
-      play: () => void this.host.play(this.editor.draft),
-      repair: () => this.takeRepaired(),
-    };
-    this.bar = new TeachBar(store, {...shared, addPose: () => this.addPose(), open: () => this.sheet.open()});
-    this.sheet = new MotionSheet(store, this.editor, this.host, {
-      ...shared, stop,
-      capture: (index) => this.withPose((pose) =>
-          this.editor.change(changeKeyframe(this.editor.draft, index, {pose}))),
-      show: (index) => void this.host.play(onlyKeyframe(this.editor.draft, index)),
-    });
+    this.bar = new TeachBar(store, this);
+    this.sheet = new MotionSheet(store, this.editor, this.host, this);
   }
 
   /** Tells once how it goes, to a person who has not taught anything yet. */
@@ -103,7 +94,18 @@ export class Teach {
     };
   }
 
-  private addPose(): void {
+  /** Plays a draft, or shows why it is not safe. */
+  play(draft = this.editor.draft): void {
+    this.sheet.element.close();
+    void this.host.play(draft);
+  }
+
+  /** Gives a keyframe the pose that the robot is in. */
+  capture(index: number): void {
+    this.withPose((pose) => this.editor.change(changeKeyframe(this.editor.draft, index, {pose})));
+  }
+
+  addPose(): void {
     this.withPose((pose) => {
       const {draft} = this.editor;
       const longer = addPose(draft, pose, this.store.get().robot?.joints ?? []);
@@ -112,7 +114,8 @@ export class Teach {
     });
   }
 
-  private takeRepaired(): void {
+  /** The draft becomes the repaired motion of its fault. */
+  repair(): void {
     const {draft, motionFault} = this.store.get();
     if (!motionFault?.repaired) return;
     this.editor.change(repair(draft, motionFault.repaired));

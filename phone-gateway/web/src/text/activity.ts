@@ -1,26 +1,14 @@
 /** Mode and activity of the robot in the page's language; pure. */
 import {CommandKind, Mode} from "../protocol/generated/remote_pb";
 import type {Activity} from "../protocol/generated/remote_pb";
+import {nameOf} from "../protocol/names";
 import {kTemporaryName} from "../teach/motion_name";
 import {say, sayName} from "./texts";
-
-/** The last parts of the text keys "mode.NAME"; also the values of the status element's data-mode. */
-export const kModeNames = {
-  [Mode.RELAXED]: "relaxed",
-  [Mode.HOLDING]: "holding",
-  [Mode.MOVING]: "moving",
-  [Mode.WALKING]: "walking",
-  [Mode.ACTING]: "acting",
-  [Mode.FALLING]: "falling",
-  [Mode.FALLEN]: "fallen",
-  [Mode.GETTING_UP]: "getting-up",
-  [Mode.NO_ROBOT]: "no-robot",
-} as const satisfies Record<Mode, string>;
 
 /** @param isByItself  The robot acts by itself: standing for a moment, it does not wait for anybody. */
 export function modeInWords(mode: Mode, isByItself = false): string {
   if (isByItself && mode === Mode.HOLDING) return say("mode.playing");
-  return say(`mode.${kModeNames[mode] ?? "no-robot"}`);
+  return say(`mode.${nameOf(Mode, mode, "no-robot")}`);
 }
 
 /** What the robot does beyond what its mode says; empty for a walk, a stop or no activity. */

@@ -1,11 +1,11 @@
 /** The condition of the robot's body in the page's language; pure. */
 import type {Body, RobotDescription} from "../protocol/generated/remote_pb";
+import {jointsOf} from "../robot/joint_axes";
 import {isText, say, sayName} from "./texts";
 
 /** A joint as a person says it: by the name of its group. */
 function sayJoint(name: string, robot: RobotDescription | null): string {
-  const group = robot?.jointGroups.find(({yawJoint, pitchJoint, rollJoint}) =>
-      [yawJoint, pitchJoint, rollJoint].includes(name));
+  const group = robot?.jointGroups.find((one) => jointsOf(one).includes(name));
   return group ? sayName("group", group.name) : name;
 }
 
