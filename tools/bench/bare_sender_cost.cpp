@@ -21,28 +21,21 @@ constexpr double kLeastRate = 0.1;
 
 }  // namespace
 
-double measure_bare_sender(const SentTraffic& traffic, int num_clients, double time,
-                           const std::vector<std::string>& bus) {
+double measure_bare_sender(const SentTraffic& traffic, int num_clients, double time) {
   const auto rate = [](double value) { return std::to_string(std::max(kLeastRate, value)); };
   const auto bytes = [](double value) {
     return std::to_string(std::max(1, static_cast<int>(value)));
   };
-  std::vector<std::string> command = {program_folder() + "/nao-bare-sender",
-                                      rate(traffic.state_rate), bytes(traffic.state_bytes),
-                                      rate(traffic.image_rate), bytes(traffic.image_bytes)};
-  command.insert(command.end(), bus.begin(), bus.end());
-  const ChildProcess sender(command);
+  const ChildProcess sender({program_folder() + "/nao-bare-sender", rate(traffic.state_rate),
+                             bytes(traffic.state_bytes), rate(traffic.image_rate),
+                             bytes(traffic.image_bytes)});
   const uint16_t port = wait_for_port(sender, "port ");
   std::vector<pollfd> polled;
   for (int i = 0; i < num_clients; ++i) polled.push_back({connect_to_own_host(port), POLLIN, 0});
   const double cpu_before = sender.cpu_seconds();
   const double start = monotonic_seconds();
   std::vector<char> part(65536);
-  for (int second = 0; monotonic_seconds() < start + time;) {
-    if (!bus.empty() && monotonic_seconds() >= start + second) {
-      ++second;
-      for (const pollfd& one : polled) (void)!send(one.fd, "ping", 4, MSG_NOSIGNAL);
-    }
+  while (monotonic_seconds() < start + time) {
     poll(polled.data(), polled.size(), 100);
     for (const pollfd& one : polled) {
       if (one.revents != 0 && recv(one.fd, part.data(), part.size(), 0) <= 0) {

@@ -1,8 +1,5 @@
 #pragma once
 
-#include <string>
-#include <vector>
-
 namespace nao::bench {
 
 /** Messages that a server sends to each client. */
@@ -17,12 +14,9 @@ struct SentTraffic {
 
 /** Measures nao-bare-sender, a loop that sends as many bytes as often and does nothing else: the
  * baseline of a server.
- * @param bus  LCM_URL and CHANNEL of a robot's states: it also receives them, and what each client
- *   sends once a second; empty: neither.
  * @param time  Duration of the measurement, s.
  * @return Processor time, percent of a core.
  * @throws std::runtime_error  if it does not start, or ends. */
-double measure_bare_sender(const SentTraffic& traffic, int num_clients, double time,
-                           const std::vector<std::string>& bus = {});
+double measure_bare_sender(const SentTraffic& traffic, int num_clients, double time);
 
 }  // namespace nao::bench

@@ -41,7 +41,7 @@ naoremote::Request connect_request(const std::string& name) {
 
 GatewayStack::GatewayStack(const std::string& lcm_url,
                            const std::vector<std::string>& gateway_options)
-    : lcm_url_(lcm_url), bus_(lcm_url) {
+    : bus_(lcm_url) {
   const std::string folder = program_folder();
   const auto start = [&](const std::string& name, std::vector<std::string> options) {
     std::vector<std::string> command = {folder + "/" + name, "--lcm-url", lcm_url};

@@ -37,7 +37,6 @@ class GatewayStack {
   const ChildProcess& program(const std::string& name) const { return *programs_.at(name); }
   const ChildProcess& gateway() const { return program("nao-phone-gateway"); }
   Bus& bus() { return bus_; }
-  const std::string& lcm_url() const { return lcm_url_; }
 
   /** Has a function called with every message that comes to a client and its time of arrival, s,
    * inside run_until() and run_for(). */
@@ -70,7 +69,6 @@ class GatewayStack {
   void subscribe();
   void pump(double timeout);
 
-  std::string lcm_url_;
   Bus bus_;
   std::map<std::string, std::unique_ptr<ChildProcess>> programs_;
   std::set<std::string> ready_;
