@@ -1,6 +1,5 @@
 #include "tools/bench/gateway_streams.h"
 
-#include "common/channels.h"
 #include "common/wall_clock.h"
 #include "tools/bench/bare_sender_cost.h"
 #include "tools/bench/disturbing_clients.h"
@@ -92,9 +91,6 @@ Watching measure_clients(GatewayStack& stack, int num_clients, const std::string
   const SentTraffic traffic = traffic_of(many, 30, 15);
   figures.push_back({prefix + "_cpu_percent", many.cpu_percent, "%", "bare Asio loop",
                      measure_bare_sender(traffic, num_clients, time)});
-  figures.push_back({prefix + "_cpu_percent", many.cpu_percent, "%", "bare Asio loop on the bus",
-                     measure_bare_sender(traffic, num_clients, time,
-                                         {stack.lcm_url(), RobotChannels().robot_state})});
   for (const auto& [share, word] : {std::pair{0.5, "p50"}, {0.9, "p90"}, {0.99, "p99"}}) {
     figures.push_back({prefix + "_state_age_ms." + word, percentile(many.state_age_ms, share), "ms",
                        "one client", percentile(one.state_age_ms, share)});
