@@ -61,8 +61,9 @@ void Bus::take_in() {
         std::erase_if(waiting_,
                       [&](const Waiting& each) { return each.receiver == receiver.get(); });
       }
-      waiting_.push_back(
-          {receiver.get(), {message->bytes.begin(), message->bytes.end()}, nao::wall_utime()});
+      Waiting& next = waiting_.emplace_back(
+          Waiting{receiver.get(), std::exchange(unused_, {}), nao::wall_utime()});
+      next.bytes.assign(message->bytes.begin(), message->bytes.end());
     }
   }
 }
@@ -76,9 +77,10 @@ bool Bus::handle_one() {
   } else {
     has_handled = true;
     // The handler may receive others.
-    const Waiting next = std::move(waiting_.front());
+    Waiting next = std::move(waiting_.front());
     waiting_.pop_front();
     next.receiver->receive({next.receiver->channel, next.bytes, next.wall_utime});
+    unused_ = std::move(next.bytes);
   }
   if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
   return has_handled;

@@ -153,6 +153,8 @@ class Bus {
     int64_t wall_utime;
   };
   std::deque<Waiting> waiting_;
+  /** Memory of the last one, for the next. */
+  std::vector<uint8_t> unused_;
   /** What a handler has thrown, while it waits for LCM's C code to return. */
   std::exception_ptr failure_;
   BusCounters counters_;

@@ -15,6 +15,9 @@ namespace {
  * drawn with a crease. Chosen: cos 40 degrees; below it the NAO's rounded edges have facets. */
 constexpr float kCreaseCosine = 0.77f;
 
+/** Factor of a distance that is compared with another one, above all errors of rounding. */
+constexpr float kRounding = 1.0001f;
+
 /** Triangles of which corners at the same place, of the same color, are one vertex. A mesh has
  * several vertices there if their normals differ. */
 std::vector<uint32_t> welded(const Mesh& mesh) {
@@ -181,15 +184,41 @@ Mesh simplified_shape(const Mesh& mesh, float mean_error) {
 }
 
 float largest_distance(const Mesh& mesh, const Mesh& other) {
+  struct Triangle {
+    std::array<Eigen::Vector3f, 3> corners;
+    Eigen::Vector3f center;
+    float radius;
+  };
+  std::vector<Triangle> triangles;
+  for (size_t i = 0; i + 2 < other.indices.size(); i += 3) {
+    Triangle& triangle = triangles.emplace_back();
+    for (size_t j = 0; j < 3; ++j) {
+      triangle.corners[j] = other.vertices[other.indices[i + j]].position;
+    }
+    triangle.center = (triangle.corners[0] + triangle.corners[1] + triangle.corners[2]) / 3;
+    triangle.radius = 0;
+    for (const Eigen::Vector3f& corner : triangle.corners) {
+      triangle.radius = std::max(triangle.radius, kRounding * (corner - triangle.center).norm());
+    }
+  }
   float largest = 0;
+  // Neighbors in a mesh are near each other: the nearest triangle of the last vertex comes first.
+  size_t first = 0;
   for (const Vertex& vertex : mesh.vertices) {
-    float nearest = std::numeric_limits<float>::max();
+    float nearest = std::numeric_limits<float>::infinity();
+    float reach = nearest;
+    const size_t begin = first;
     // The search may end at the first triangle that is not farther than the largest distance.
-    for (size_t i = 0; i + 2 < other.indices.size() && nearest > largest; i += 3) {
-      nearest = std::min(nearest, square_distance(vertex.position,
-                                                  {other.vertices[other.indices[i]].position,
-                                                   other.vertices[other.indices[i + 1]].position,
-                                                   other.vertices[other.indices[i + 2]].position}));
+    for (size_t i = 0; i < triangles.size() && nearest > largest; ++i) {
+      const size_t index = begin + i < triangles.size() ? begin + i : begin + i - triangles.size();
+      const Triangle& triangle = triangles[index];
+      const float bound = reach + triangle.radius;
+      if ((vertex.position - triangle.center).squaredNorm() > bound * bound) continue;
+      const float distance = square_distance(vertex.position, triangle.corners);
+      if (distance >= nearest) continue;
+      nearest = distance;
+      reach = kRounding * std::sqrt(nearest);
+      first = index;
     }
     largest = std::max(largest, nearest);
   }

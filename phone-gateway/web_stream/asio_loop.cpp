@@ -1,7 +1,9 @@
 #include "phone-gateway/web_stream/asio_loop.h"
 
+#include <boost/asio/post.hpp>
 #include <csignal>
 #include <iterator>
+#include <utility>
 
 namespace nao {
 namespace {
@@ -71,6 +73,11 @@ void AsioLoop::set_period(size_t number, double period) {
   Timer& timer = *std::next(timers_.begin(), static_cast<long>(number));
   if (timer.period == to_duration(period)) return;
   timer.period = to_duration(period);
+  restart(number);
+}
+
+void AsioLoop::restart(size_t number) {
+  Timer& timer = *std::next(timers_.begin(), static_cast<long>(number));
   // Within its own handler it is not waiting, and begins to afterwards.
   if (timer.timer.expires_at(Clock::now()) > 0) wait(timer);
 }
@@ -82,6 +89,10 @@ void AsioLoop::wait(Timer& timer) {
     timer.handler();
     wait(timer);
   });
+}
+
+void AsioLoop::later(std::function<void()> handler) {
+  asio::post(io_, std::move(handler));
 }
 
 std::string AsioLoop::run() {

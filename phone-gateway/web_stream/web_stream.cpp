@@ -1,13 +1,17 @@
 #include "phone-gateway/web_stream/web_stream.h"
 //
+#include <boost/asio/write.hpp>
 #include <boost/beast/ssl.hpp>
 #include <boost/beast/websocket/ssl.hpp>
 #include <boost/beast/websocket/teardown.hpp>
+#include <memory>
+#include <utility>
 
 namespace nao {
 
 namespace asio = boost::asio;
 namespace beast = boost::beast;
+using boost::system::error_code;
 
 struct WebStream::Secure {
   beast::ssl_stream<beast::tcp_stream> stream;
@@ -51,9 +55,39 @@ void WebStream::read_some(const BufferList<asio::mutable_buffer>& buffers, Compl
 void WebStream::write_some(const BufferList<asio::const_buffer>& buffers, Completion completion) {
   if (secure_) {
     secure_->stream.async_write_some(buffers, std::move(completion));
-  } else {
-    plain_->async_write_some(buffers, std::move(completion));
+    return;
   }
+  const auto shared = std::make_shared<Completion>(std::move(completion));
+  const auto write = [this, buffers, shared] {
+    plain_->async_write_some(buffers, [this, shared](const error_code& error, size_t size) {
+      // A frame that is not finished goes on within the call.
+      is_writing_ = false;
+      (*shared)(error, size);
+    });
+  };
+  is_writing_ = true;
+  if (is_writing_rest_) {
+    waiting_write_ = write;
+  } else {
+    write();
+  }
+}
+
+size_t WebStream::write_at_once(const BufferList<asio::const_buffer>& buffers) {
+  if (secure_ || is_writing_ || is_writing_rest_) return 0;
+  error_code error;
+  const size_t size = plain_->socket().send(buffers, 0, error);
+  return error ? 0 : size;
+}
+
+void WebStream::write_rest(const BufferList<asio::const_buffer>& rest, Completion completion) {
+  is_writing_rest_ = true;
+  const auto shared = std::make_shared<Completion>(std::move(completion));
+  asio::async_write(plain_->socket(), rest, [this, shared](const error_code& error, size_t size) {
+    is_writing_rest_ = false;
+    if (const auto write = std::exchange(waiting_write_, nullptr)) write();
+    (*shared)(error, size);
+  });
 }
 
 void WebStream::tear_down(beast::role_type role, Completion completion) {

@@ -3,6 +3,7 @@
 // <utility> first: Boost 1.74's coroutine headers rely on it with GCC 12.
 #include <utility>
 //
+#include <algorithm>
 #include <array>
 #include <boost/asio/any_io_executor.hpp>
 #include <boost/asio/associated_executor.hpp>
@@ -10,6 +11,7 @@
 #include <boost/asio/ssl/context.hpp>
 #include <boost/beast/core/role.hpp>
 #include <boost/beast/core/tcp_stream.hpp>
+#include <functional>
 #include <memory>
 #include <string>
 #include <type_traits>
@@ -74,6 +76,14 @@ class BufferList {
   }
   const_iterator begin() const { return buffers_.data(); }
   const_iterator end() const { return buffers_.data() + size_; }
+  /** Removes bytes from the beginning. */
+  void consume(size_t num_bytes) {
+    for (size_t i = 0; i < size_; ++i) {
+      const size_t of_buffer = std::min(num_bytes, buffers_[i].size());
+      buffers_[i] += of_buffer;
+      num_bytes -= of_buffer;
+    }
+  }
 
  private:
   std::array<Buffer, 16> buffers_;
@@ -120,6 +130,25 @@ class WebStream {
     write_some(BufferList<boost::asio::const_buffer>(buffers),
                erase(std::forward<Handler>(handler)));
   }
+
+  enum class Written { kNothing, kPart, kAll };
+  /** Writes whole frames at once, past the layers above. What they write meanwhile comes after it.
+   * @param handler  Called when the rest is written, if that was a part; the bytes must live until
+   *   then.
+   * @return kNothing: with TLS, during a write of the layers above, or if the socket takes nothing.
+   */
+  template <class Buffers, class Handler>
+  Written write_now(const Buffers& buffers, Handler&& handler) {
+    BufferList<boost::asio::const_buffer> rest(buffers);
+    const size_t size = boost::asio::buffer_size(buffers);
+    const size_t written = write_at_once(rest);
+    if (written == 0) return Written::kNothing;
+    if (written == size) return Written::kAll;
+    rest.consume(written);
+    write_rest(rest, erase(std::forward<Handler>(handler)));
+    return Written::kPart;
+  }
+
   /** Ends a WebSocket's connection in the way of its stream; found by Boost.Beast. */
   template <class Handler>
   friend void async_teardown(boost::beast::role_type role, WebStream& stream, Handler&& handler) {
@@ -135,11 +164,18 @@ class WebStream {
   }
   void read_some(const BufferList<boost::asio::mutable_buffer>& buffers, Completion completion);
   void write_some(const BufferList<boost::asio::const_buffer>& buffers, Completion completion);
+  size_t write_at_once(const BufferList<boost::asio::const_buffer>& buffers);
+  void write_rest(const BufferList<boost::asio::const_buffer>& rest, Completion completion);
   void tear_down(boost::beast::role_type role, Completion completion);
 
   /** Exactly one of them. */
   std::unique_ptr<boost::beast::tcp_stream> plain_;
   std::unique_ptr<Secure> secure_;
+  /** Of the layers above. */
+  bool is_writing_ = false;
+  /** That of write_rest(), and what the layers above write after it. */
+  bool is_writing_rest_ = false;
+  std::function<void()> waiting_write_;
 };
 
 }  // namespace nao

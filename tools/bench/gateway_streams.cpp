@@ -7,7 +7,7 @@
 namespace nao::bench {
 namespace {
 
-/** Chosen: a classroom; nao-bench-crowd measures 100. */
+/** Chosen: a classroom; nao-bench-crowd measures 100 clients of several robots. */
 constexpr int kNumClients = 32;
 
 /** Messages that the clients received over some seconds. */
@@ -83,6 +83,24 @@ SentTraffic traffic_of(const Watching& seen, double state_rate, double image_rat
           .image_bytes = mean(seen.image_bytes, seen.num_images) + kFrameBytes};
 }
 
+/** What many clients cost, and the age of their states. @param one  One client. */
+Watching measure_clients(GatewayStack& stack, int num_clients, const std::string& name,
+                         const Watching& one, double time, std::vector<Figure>& figures) {
+  const std::string prefix = "gateway." + name;
+  const Watching many = watch(stack, num_clients, 30, 15, time);
+  const SentTraffic traffic = traffic_of(many, 30, 15);
+  figures.push_back({prefix + "_cpu_percent", many.cpu_percent, "%", "bare Asio loop",
+                     measure_bare_sender(traffic, num_clients, time)});
+  for (const auto& [share, word] : {std::pair{0.5, "p50"}, {0.9, "p90"}, {0.99, "p99"}}) {
+    figures.push_back({prefix + "_state_age_ms." + word, percentile(many.state_age_ms, share), "ms",
+                       "one client", percentile(one.state_age_ms, share)});
+  }
+  figures.push_back(
+      {prefix + "_rate_hz", many.num_states / time / num_clients, "1/s", "asked for", 30});
+  figures.push_back({prefix + "_rss_mib", many.rss_mib, "MiB", "one client", one.rss_mib});
+  return many;
+}
+
 }  // namespace
 
 void measure_streams(GatewayStack& stack, double time, std::vector<Figure>& figures) {
@@ -93,17 +111,8 @@ void measure_streams(GatewayStack& stack, double time, std::vector<Figure>& figu
   figures.push_back({"gateway.image_rate_hz", one.num_images / time, "1/s", "asked for", 30});
 
   const Watching few = watch(stack, 1, 30, 15, time);
-  const Watching many = watch(stack, kNumClients, 30, 15, time);
-  figures.push_back({"gateway.clients32_cpu_percent", many.cpu_percent, "%", "bare Asio loop",
-                     measure_bare_sender(traffic_of(many, 30, 15), kNumClients, time)});
-  for (const auto& [share, word] : {std::pair{0.5, "p50"}, {0.9, "p90"}, {0.99, "p99"}}) {
-    figures.push_back({std::string("gateway.clients32_state_age_ms.") + word,
-                       percentile(many.state_age_ms, share), "ms", "one client",
-                       percentile(few.state_age_ms, share)});
-  }
-  figures.push_back(
-      {"gateway.clients32_rate_hz", many.num_states / time / kNumClients, "1/s", "asked for", 30});
-  figures.push_back({"gateway.clients32_rss_mib", many.rss_mib, "MiB", "one client", few.rss_mib});
+  const Watching many = measure_clients(stack, kNumClients, "clients32", few, time, figures);
+  measure_clients(stack, 100, "clients100_of_one_robot", few, time, figures);
 
   const DisturbingClients disturbing(stack.tcp_port());
   const Watching disturbed = watch(stack, kNumClients - 3, 30, 15, time);

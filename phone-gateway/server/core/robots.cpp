@@ -98,6 +98,7 @@ void Robots::add_image(size_t robot, const CachedImage& image, double now) {
 
 void Robots::step(double now) {
   for (const auto& robot : robots_) robot->step(now);
+  if (size() < 2) return;
   naoremote::RobotList now_listed = list();
   std::string bytes = now_listed.SerializeAsString();
   if (bytes == last_list_) return;

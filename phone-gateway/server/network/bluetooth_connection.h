@@ -84,10 +84,11 @@ class BluetoothConnection : public ClientConnection {
 
   void resume_reading() override { read_waiting(); }
 
-  void write(MessageBytes message) override {
+  bool write(MessageBytes message) override {
     writer_.put(*message);
     is_writing_ = true;
     send_fragments();
+    return false;
   }
 
   void send_fragments() {

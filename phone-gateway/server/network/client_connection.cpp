@@ -1,6 +1,5 @@
 #include "phone-gateway/server/network/client_connection.h"
 
-#include <boost/asio/post.hpp>
 #include <utility>
 
 #include "common/wall_clock.h"
@@ -39,12 +38,12 @@ void ClientConnection::open(const Endpoint& endpoint) {
   }
   const auto wake = [weak] {
     const auto self = weak.lock();
-    // One flush for all messages of an event. Posted, as the core may call this while it goes
+    // One flush for all messages of an event. Later, as the core may call this while it goes
     // through its sessions.
-    if (!self || std::exchange(self->is_flush_posted_, true)) return;
-    asio::post(self->context_.io, [self] {
-      self->is_flush_posted_ = false;
-      self->flush_in_turn();
+    if (!self || std::exchange(self->is_flush_queued_, true)) return;
+    self->context_.flush_queue.add([self] {
+      self->is_flush_queued_ = false;
+      self->flush(false);
     });
   };
   id_ = context_.core.open(endpoint, wake, monotonic_seconds());
@@ -53,6 +52,7 @@ void ClientConnection::open(const Endpoint& endpoint) {
 bool ClientConnection::receive(std::string_view message) {
   const double pause = context_.core.receive(id_, message, monotonic_seconds());
   const LinkMeasurement link = measure();
+  segment_bytes_ = link.segment_bytes;
   context_.core.set_round_trip_time(id_, link.mean, link.least);
   context_.core.set_repeated_packets(id_, link.num_repeated_packets, monotonic_seconds());
   if (is_in_handshake_ && context_.core.is_connected(id_)) end_handshake();
@@ -71,37 +71,42 @@ void ClientConnection::reject(const Reason& reason) {
   context_.core.close(id_, reason, monotonic_seconds());
 }
 
-void ClientConnection::flush_in_turn() {
-  // Images and audio wait in a queue for their turn (FairQueue): a client with large ones must not
-  // delay the states of others.
-  if (is_writing_ || !context_.core.is_long_next(id_)) {
-    flush();
-  } else if (!std::exchange(is_image_queued_, true)) {
-    context_.image_queue.add([weak = weak_from_this()] {
-      const auto self = weak.lock();
-      if (!self) return;
-      self->is_image_queued_ = false;
-      self->flush();
-    });
-  }
-}
-
-void ClientConnection::flush() {
-  // One message is sent at a time; the next is made when this one has left.
+void ClientConnection::flush(bool has_turn) {
   if (is_writing_ || is_finished_) return;
   const double now = monotonic_seconds();
-  // It takes two system calls.
-  if (context_.core.paces_image(id_)) context_.core.set_unacknowledged(id_, unacknowledged(), now);
-  const auto message = context_.core.next_message(id_, now);
-  if (message) {
-    is_writing_ = true;
-    set_deadline(is_closing() ? kClosingTimeout : kWriteTimeout);
-    write(message);
-  } else if (is_closing() && !std::exchange(is_shut_down_, true)) {
+  // It takes a system call, and what has its turn was checked before it waited.
+  if (!has_turn && context_.core.paces_image(id_)) {
+    context_.core.set_unacknowledged(id_, unacknowledged(), now);
+  }
+  // One message is sent at a time; the next is made when this one has left.
+  while (!is_writing_) {
+    // Images and audio wait in a queue for their turn (FairQueue): a client with large ones must
+    // not delay the states of others.
+    if (!std::exchange(has_turn, false) && context_.core.is_long_next(id_)) return queue_image();
+    auto message = context_.core.next_message(id_, now);
+    if (!message) break;
+    send(std::move(message));
+  }
+  if (!is_writing_ && is_closing() && !std::exchange(is_shut_down_, true)) {
     // All messages are sent, the last of them CLOSING.
     set_deadline(kClosingTimeout);
     shut_down();
   }
+}
+
+void ClientConnection::queue_image() {
+  if (std::exchange(is_image_queued_, true)) return;
+  context_.image_queue.add([weak = weak_from_this()] {
+    const auto self = weak.lock();
+    if (!self) return;
+    self->is_image_queued_ = false;
+    self->flush(true);
+  });
+}
+
+void ClientConnection::send(MessageBytes message) {
+  is_writing_ = !write(std::move(message));
+  if (is_writing_) set_deadline(is_closing() ? kClosingTimeout : kWriteTimeout);
 }
 
 void ClientConnection::on_written(bool has_failed) {
@@ -110,7 +115,7 @@ void ClientConnection::on_written(bool has_failed) {
   if (has_failed) {
     abort("closed by the client");
   } else {
-    flush_in_turn();
+    flush(false);
   }
 }
 

@@ -30,15 +30,16 @@ class ClientConnection : public std::enable_shared_from_this<ClientConnection> {
   [[nodiscard]] bool receive(std::string_view message);
   /** Closes the connection: the client has violated the rules of the transport. */
   void reject(const Reason& reason);
-  /** The write that write() has started is complete. */
+  /** The write that write() has started, and not finished, is complete. */
   void on_written(bool has_failed);
   /** Ends the session and closes the socket. @param why  For the audit log. */
   void abort(const std::string& why);
   bool is_closing() const { return context_.core.is_closing(id_); }
 
   // Operations of the transport.
-  /** Starts sending a message; calls on_written() when it is sent. */
-  virtual void write(MessageBytes message) = 0;
+  /** Sends a message. @return True if it is sent already; otherwise on_written() is called later.
+   */
+  [[nodiscard]] virtual bool write(MessageBytes message) = 0;
   /** Continues reading after a pause. */
   virtual void resume_reading() = 0;
   /** Everything has been sent: closes the sending direction. */
@@ -46,7 +47,7 @@ class ClientConnection : public std::enable_shared_from_this<ClientConnection> {
   /** What is known of the connection with the client. */
   virtual LinkMeasurement measure() { return measure_link(*socket()); }
   /** Bytes that were written and that the other end has not acknowledged. */
-  virtual size_t unacknowledged() { return count_unacknowledged(*socket()); }
+  virtual size_t unacknowledged() { return count_unacknowledged(*socket(), segment_bytes_); }
   /** The TCP socket; null: there is none, and measure() and unacknowledged() are overridden. */
   virtual Tcp::socket* socket() { return nullptr; }
   /** Closes the socket; operations in progress end with an error. */
@@ -55,9 +56,11 @@ class ClientConnection : public std::enable_shared_from_this<ClientConnection> {
   ConnectionContext& context_;
 
  private:
-  /** Sends the next message: an image through the image queue, others at once. */
-  void flush_in_turn();
-  void flush();
+  /** Sends messages until the connection takes no more. An image waits in a queue for its turn.
+   * @param has_turn  The first message may be an image. */
+  void flush(bool has_turn);
+  void queue_image();
+  void send(MessageBytes message);
   void set_deadline(std::chrono::seconds time);
   void wait_for_deadline();
   void end_handshake();
@@ -70,9 +73,11 @@ class ClientConnection : public std::enable_shared_from_this<ClientConnection> {
   std::optional<asio::steady_timer::time_point> deadline_;
   bool is_deadline_timer_running_ = false;
   uint32_t id_ = 0;
+  /** Of LinkMeasurement, as of the client's last message. */
+  uint32_t segment_bytes_ = 0;
   HandshakeLimiter::Entry handshake_;
   bool is_in_handshake_ = false;
-  bool is_flush_posted_ = false;
+  bool is_flush_queued_ = false;
   bool is_image_queued_ = false;
   bool is_writing_ = false;
   bool is_shut_down_ = false;

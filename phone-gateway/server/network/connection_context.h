@@ -11,8 +11,10 @@ namespace nao::gateway {
 /** The objects that all connections of the gateway share. */
 struct ConnectionContext : HttpContext {
   GatewayCore& core;
-  /** Transmissions of images. Those to 32 clients take 0.5 ms: a state that arrives in the meantime
-   * must not wait for all of them. */
+  /** Connections with something to send: all of one event are served in one iteration. */
+  FairQueue flush_queue;
+  /** Transmissions of images: a state that arrives in the meantime must not wait for all of them.
+   */
   FairQueue image_queue;
   /** The network is being destroyed: connections no longer report their end to the core. */
   bool is_shutting_down = false;

@@ -141,12 +141,13 @@ class RelayedConnection : public ClientConnection, public RelayedPhone {
 
   void resume_reading() override { read(); }
 
-  void write(MessageBytes message) override {
+  bool write(MessageBytes message) override {
     round_trip_.sent(channel_->num_sealed(), monotonic_seconds());
     frame_ = channel_->seal(*message);
     socket_.async_write(asio::buffer(frame_), [self = self()](const error_code& error, size_t) {
       self->on_written(error.failed());
     });
+    return false;
   }
 
   void shut_down() override {

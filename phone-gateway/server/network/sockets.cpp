@@ -24,11 +24,14 @@ constexpr double kMaxUnsentTime = 0.03;
 constexpr int kLeastUnsentBytes = 1024;
 constexpr int kMaxUnsentBytes = 16384;
 /** Bytes of a segment on Ethernet and Wi-Fi, at most. */
-constexpr int kEthernetSegment = 1460;
+constexpr uint32_t kEthernetSegment = 1460;
 
 /** tcp_info of linux/tcp.h, which excludes netinet/tcp.h, as far as it is used. */
 struct LinuxTcpInfo {
-  std::array<uint32_t, 17> before_rtt;
+  std::array<uint32_t, 4> before_segment;
+  /** Bytes of a packet that is sent. */
+  uint32_t segment;
+  std::array<uint32_t, 12> before_rtt;
   /** Microseconds, smoothed. */
   uint32_t rtt;
   /** The last one: packets repeated until now. */
@@ -86,6 +89,7 @@ Endpoint make_endpoint(const Tcp::socket& socket, const std::string& transport) 
 
 void prepare_socket(Tcp::socket& socket, const std::string& congestion_control) {
   error_code ignored;
+  socket.non_blocking(true, ignored);
   // Commands and states are small and must not wait (Nagle's algorithm).
   socket.set_option(Tcp::no_delay(true), ignored);
   setsockopt(socket.native_handle(), IPPROTO_TCP, TCP_NOTSENT_LOWAT, &kMaxUnsentBytes,
@@ -107,21 +111,16 @@ LinkMeasurement measure_link(Tcp::socket& socket) {
   const int limit = std::clamp(static_cast<int>(unsent), kLeastUnsentBytes, kMaxUnsentBytes);
   setsockopt(descriptor, IPPROTO_TCP, TCP_NOTSENT_LOWAT, &limit, sizeof limit);
   // The greatest number: not known.
-  return {info.rtt * 1e-6, info.min_rtt == UINT32_MAX ? 0 : info.min_rtt * 1e-6, info.after_rtt[7]};
+  return {info.rtt * 1e-6, info.min_rtt == UINT32_MAX ? 0 : info.min_rtt * 1e-6, info.after_rtt[7],
+          info.segment};
 }
 
-size_t count_unacknowledged(Tcp::socket& socket) {
+size_t count_unacknowledged(Tcp::socket& socket, uint32_t segment_bytes) {
   int bytes = 0;
   if (ioctl(socket.native_handle(), SIOCOUTQ, &bytes) != 0) return 0;
   // The other end may keep the acknowledgement of two segments back for a while, which counts where
   // they are as large as on the loopback interface.
-  int segment = 0;
-  socklen_t size = sizeof segment;
-  const auto descriptor = socket.native_handle();
-  if (getsockopt(descriptor, IPPROTO_TCP, TCP_MAXSEG, &segment, &size) == 0 &&
-      segment > kEthernetSegment) {
-    bytes -= 2 * segment;
-  }
+  if (segment_bytes > kEthernetSegment) bytes -= 2 * static_cast<int>(segment_bytes);
   return static_cast<size_t>(std::max(bytes, 0));
 }
 

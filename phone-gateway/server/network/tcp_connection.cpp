@@ -1,5 +1,6 @@
 #include "phone-gateway/server/network/client_connection.h"
 //
+#include <algorithm>
 #include <array>
 #include <boost/asio/write.hpp>
 #include <optional>
@@ -56,13 +57,19 @@ class TcpConnection : public ClientConnection {
     read();
   }
 
-  void write(MessageBytes message) override {
+  bool write(MessageBytes message) override {
     outgoing_ = std::move(message);
     length_ = frame_length(outgoing_->size());
     // Length and message in one call, without copying both into one buffer.
+    using Buffers = std::array<asio::const_buffer, 2>;
+    const size_t sent = send_now(socket_, Buffers{asio::buffer(length_), asio::buffer(*outgoing_)});
+    if (sent == length_.size() + outgoing_->size()) return true;
+    const size_t of_length = std::min(sent, length_.size());
     asio::async_write(
-        socket_, std::array<asio::const_buffer, 2>{asio::buffer(length_), asio::buffer(*outgoing_)},
+        socket_,
+        Buffers{asio::buffer(length_) + of_length, asio::buffer(*outgoing_) + (sent - of_length)},
         [self = self()](const error_code& error, size_t) { self->on_written(error.failed()); });
+    return false;
   }
 
   void shut_down() override {

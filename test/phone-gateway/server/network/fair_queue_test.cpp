@@ -13,7 +13,7 @@ TEST(FairQueue, HandlesReadyEventsBetweenItsTasks) {
   std::array<int, 2> ends{};
   ASSERT_EQ(pipe(ends.data()), 0);
   boost::asio::io_context io;
-  FairQueue queue(io);
+  FairQueue queue(io, std::chrono::microseconds(0));
   boost::asio::posix::stream_descriptor reader(io, ends[0]);
   int num_done = 0;
   int num_done_before_reading = -1;
@@ -33,7 +33,7 @@ TEST(FairQueue, HandlesReadyEventsBetweenItsTasks) {
 
 TEST(FairQueue, ExecutesATaskThatATaskAdds) {
   boost::asio::io_context io;
-  FairQueue queue(io);
+  FairQueue queue(io, std::chrono::microseconds(0));
   int num_done = 0;
   queue.add([&] {
     ++num_done;

@@ -2,6 +2,7 @@
 #include "test/phone-gateway/server/network/live_gateway.h"
 
 #include <gtest/gtest.h>
+#include <poll.h>
 #include <sys/socket.h>
 
 #include <random>
@@ -286,6 +287,99 @@ TEST_F(LiveGatewayTest, ExecutesTheOperatorsRequests) {
                 .error(),
             naoremote::OK);
   EXPECT_THROW(phone.run_for(kDeadline), ConnectionError);
+}
+
+/** Frames of a WebSocket (RFC 6455, 5.2) of a client that reads slowly. */
+class SlowWebSocket {
+ public:
+  struct Frame {
+    int opcode = 0;
+    std::string payload;
+  };
+
+  explicit SlowWebSocket(uint16_t port) : socket_("127.0.0.1", port, kDeadline) {
+    constexpr int kFewBytes = 4096;
+    setsockopt(socket_.descriptor(), SOL_SOCKET, SO_RCVBUF, &kFewBytes, sizeof kFewBytes);
+    socket_.send_raw(
+        "GET /ws HTTP/1.1\r\nHost: localhost\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
+        "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\nSec-WebSocket-Version: 13\r\n\r\n");
+    while (received_.find("\r\n\r\n") == std::string::npos) receive();
+    received_.erase(0, received_.find("\r\n\r\n") + 4);
+  }
+
+  /** @param payload  Below 126 bytes. */
+  void send(int opcode, const std::string& payload) {
+    const std::string no_mask(4, '\0');
+    socket_.send_raw(
+        std::string{static_cast<char>(0x80 | opcode), static_cast<char>(0x80 | payload.size())} +
+        no_mask + payload);
+  }
+
+  Frame next() {
+    take_in(2);
+    const int opcode = static_cast<uint8_t>(received_[0]) & 0x0f;
+    size_t size = static_cast<uint8_t>(received_[1]);
+    const size_t num_size_bytes = size < 126 ? 0 : size == 126 ? 2 : 8;
+    take_in(2 + num_size_bytes);
+    if (num_size_bytes > 0) size = 0;
+    for (size_t i = 0; i < num_size_bytes; ++i) {
+      size = size << 8 | static_cast<uint8_t>(received_[2 + i]);
+    }
+    const size_t begin = 2 + num_size_bytes;
+    take_in(begin + size);
+    Frame frame{opcode, received_.substr(begin, size)};
+    received_.erase(0, begin + size);
+    return frame;
+  }
+
+ private:
+  void take_in(size_t num_bytes) {
+    while (received_.size() < num_bytes) receive();
+  }
+  void receive() {
+    pollfd polled{socket_.descriptor(), POLLIN, 0};
+    if (poll(&polled, 1, static_cast<int>(kDeadline * 1e3)) != 1) throw Error("nothing comes");
+    char part[1024];
+    const ssize_t size = recv(socket_.descriptor(), part, sizeof part, 0);
+    if (size <= 0) throw Error("the gateway has closed the connection");
+    received_.append(part, static_cast<size_t>(size));
+  }
+
+  MessageSocket socket_;
+  std::string received_;
+};
+
+// The images do not fit into the socket: their rest waits while the answers to pings are written.
+TEST(LiveGateway, SendsWholeFramesToASlowWebSocket) {
+  constexpr int kBinary = 2;
+  constexpr int kPing = 9;
+  constexpr int kPong = 10;
+  LiveGateway::Options options;
+  options.image_bytes = 200000;
+  options.limits.silence_timeout = kDeadline;
+  LiveGateway gateway(options);
+  SlowWebSocket client(gateway.http_port());
+  naoremote::Request request;
+  request.mutable_connect()->set_protocol_version(1);
+  client.send(kBinary, request.SerializeAsString());
+  request.mutable_subscribe()->set_state_rate(60);
+  request.mutable_subscribe()->set_image_rate(30);
+  client.send(kBinary, request.SerializeAsString());
+  int num_images = 0;
+  for (int ping = 0; num_images < 3; ++ping) {
+    client.send(kPing, std::to_string(ping));
+    while (true) {
+      const SlowWebSocket::Frame frame = client.next();
+      if (frame.opcode == kPong) {
+        EXPECT_EQ(frame.payload, std::to_string(ping));
+        break;
+      }
+      ASSERT_EQ(frame.opcode, kBinary);
+      naoremote::ServerMessage message;
+      ASSERT_TRUE(message.ParseFromString(frame.payload));
+      num_images += message.has_image() ? 1 : 0;
+    }
+  }
 }
 
 TEST(LiveGateway, NamesThePortThatIsInUse) {
