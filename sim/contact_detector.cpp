@@ -73,6 +73,8 @@ void ContactDetector::add_robot() {
   memory.floor_distance.resize(model.points.size());
   memory.nearest_free.resize(num_parts);
   memory.self.resize(model.self_pairs.size());
+  memory.near_pairs.reserve(model.self_pairs.size());
+  memory.listed_centers.reserve(num_parts);
   for (const auto& [a, b] : model.self_pairs) {
     const double reach = model.parts[a].bounding_radius + model.parts[b].bounding_radius + kMargin;
     memory.self_reach.push_back(reach);
