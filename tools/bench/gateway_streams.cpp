@@ -87,7 +87,7 @@ SentTraffic traffic_of(const Watching& seen, double state_rate, double image_rat
 Watching measure_clients(GatewayStack& stack, int num_clients, const std::string& name,
                          const Watching& one, double time, std::vector<Figure>& figures) {
   const std::string prefix = "gateway." + name;
-  const Watching many = watch(stack, num_clients, 30, 15, time);
+  Watching many = watch(stack, num_clients, 30, 15, time);
   const SentTraffic traffic = traffic_of(many, 30, 15);
   figures.push_back({prefix + "_cpu_percent", many.cpu_percent, "%", "bare Asio loop",
                      measure_bare_sender(traffic, num_clients, time)});
