@@ -1,6 +1,7 @@
 #include "messages/motion_file.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace nao {
 namespace {

@@ -5,6 +5,7 @@
 
 #include "inspection/foxglove_converter.h"
 #include "inspection/foxglove_schemas.h"
+#include "inspection/message_json.h"
 #include "robot_model/robot_model.h"
 #include "tools/nao-tools/log_input.h"
 #include "tools/nao-tools/mcap_writer.h"

@@ -8,6 +8,7 @@
 #include "common/channels.h"
 #include "common/command_line.h"
 #include "common/event_loop.h"
+#include "common/program.h"
 #include "messages/command_publisher.h"
 #include "tools/nao/command_exchange.h"
 
