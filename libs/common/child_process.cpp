@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "common/error.h"
+#include "common/processor_time.h"
 #include "common/scheduling.h"
 
 namespace nao {
@@ -87,9 +88,8 @@ int ChildProcess::wait() {
 
 double ChildProcess::cpu_seconds() const {
   clockid_t clock{};
-  timespec time{};
-  if (clock_getcpuclockid(pid_, &clock) != 0 || clock_gettime(clock, &time) != 0) return 0;
-  return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_nsec) * 1e-9;
+  if (clock_getcpuclockid(pid_, &clock) != 0) return 0;
+  return clock_seconds(clock);
 }
 
 double ChildProcess::rss_mib() const {
