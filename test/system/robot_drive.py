@@ -24,7 +24,8 @@ from stack import Stack  # noqa: E402
 
 FALLEN = (Mode.FALLING, Mode.FALLEN, Mode.GETTING_UP)
 # Simulated seconds per wall second in lock-step, at most: the gateway repeats a walk command every 0.1 s of the wall clock, and
-# nao-motion ends the walk 0.5 s of robot time after the last one.
+# nao-motion ends the walk 0.5 s of robot time after the last one. Without it, a fall and the get-up end between two states that the
+# client reads.
 PACE = 3
 # Joystick values are held for as long, s of robot time; part of the time the sticks are released, or pressed to the stop.
 HOLD_RANGE = (0.2, 4)
@@ -103,6 +104,8 @@ def run_session(seed, duration, disturbances, is_real_time=False):
         stack.start_or_fail("--backend", "lola", "--scene", "empty", "--only", "sim,robot,motion,phone-gateway",
                             "--disturbances", disturbances, "--seed", str(seed), *words)
         with nao_remote.connect(f"tcp://127.0.0.1:{stack.tcp_port}") as robot:
+            if not is_real_time:
+                stack.nao("world", "set-pace", PACE)
             robot.wait_until(lambda state: state.mode == Mode.HOLDING, timeout=60)
             try:
                 fault = prepare(stack, robot)
@@ -110,8 +113,6 @@ def run_session(seed, duration, disturbances, is_real_time=False):
                 fault = str(failure)
                 stack.nao("world", "place-robot", "0", "0", "--posture", robot.description.ready_posture)
                 robot.wait_until(lambda state: state.mode == Mode.HOLDING, timeout=120)
-            if not is_real_time:
-                stack.nao("world", "set-pace", PACE)
             started = time.monotonic()
             driven, walking = drive(robot, seed, duration)
             return Session(fault, driven, walking, time.monotonic() - started)
