@@ -12,8 +12,13 @@ namespace nao::sim {
 class ContactCandidates {
  public:
   void reserve(int max_candidates) { list_.reserve(max_candidates); }
-  /** Removes the candidates, and continues to count. */
-  void clear() { list_.clear(); }
+  /** Removes the candidates, and continues to count. @param step_number  Of the step whose
+   * candidates follow, rising by 1 from step to step. */
+  void begin_step(int64_t step_number) {
+    list_.clear();
+    step_number_ = step_number;
+  }
+  int64_t step_number() const { return step_number_; }
   void reset_count() { num_dropped_ = 0; }
 
   /** Adds a candidate to be filled in. @return null if there was no room. */
@@ -25,13 +30,14 @@ class ContactCandidates {
     return &list_.emplace_back();
   }
 
-  /** In the order in which they were added. They stay where they are until clear(). */
+  /** In the order in which they were added. They stay where they are until begin_step(). */
   const std::vector<ContactCandidate>& list() const { return list_; }
   /** Left out since reset_count(). */
   int64_t num_dropped() const { return num_dropped_; }
 
  private:
   std::vector<ContactCandidate> list_;
+  int64_t step_number_ = 0;
   int64_t num_dropped_ = 0;
 };
 

@@ -173,17 +173,17 @@ bool ContactDetector::are_apart(int robot_a, int index_a, int robot_b, int index
   return separation > kMargin + kApartMargin + step_ * speed;
 }
 
-bool ContactDetector::are_near(int a, int b) const {
+bool ContactDetector::are_near(int a, int b, int num_steps) const {
   // No part of a robot is farther from its root than reach: one test for all pairs of parts.
   const SimRobot& robot_a = *bodies_.robots[a];
   const SimRobot& robot_b = *bodies_.robots[b];
-  const double far = robot_a.collisions().reach + robot_b.collisions().reach + kReach;
+  const double far = robot_a.collisions().reach + robot_b.collisions().reach + num_steps * kReach;
   return (robot_a.state().position - robot_b.state().position).squaredNorm() <= far * far;
 }
 
-bool ContactDetector::is_near_ball(int index) const {
+bool ContactDetector::is_near_ball(int index, int num_steps) const {
   const SimRobot& robot = *bodies_.robots[index];
-  const double far = robot.collisions().reach + bodies_.ball->radius() + kReach;
+  const double far = robot.collisions().reach + bodies_.ball->radius() + num_steps * kReach;
   return (robot.state().position - bodies_.ball->state().position).squaredNorm() <= far * far;
 }
 
@@ -238,7 +238,7 @@ void ContactDetector::find(const Island& island, ContactCandidates& found) {
   if (candidate == nullptr) {
     // It is marked, so that it is counted once in a step.
     memory = ContactMemory();
-    memory.last_step = step_number_;
+    memory.last_step = found.step_number();
     return true;
   }
   candidate->a = a;
@@ -358,7 +358,7 @@ bool ContactDetector::find_missed_floor_contacts(int index, ContactCandidates& f
     if (memories.nearest_free[p] > safe_distance) continue;
     for (int i = part.first_point; i < part.end_point; ++i) {
       ContactMemory& memory = memories.floor[i];
-      if (memory.last_step == step_number_) continue;  // A constraint of this step already.
+      if (memory.last_step == found.step_number()) continue;  // A constraint of this step already.
       const CollisionModel::Point& point = model.points[i];
       const Vector3d center = robot.dynamics().point_in_world(part.body, point.center_in_body);
       const Proximity proximity = to_floor(center, point.radius);
@@ -429,7 +429,7 @@ void ContactDetector::find_self_contacts(int index, ContactCandidates& found) {
 void ContactDetector::find_robot_contacts(PairMemory& pair, ContactCandidates& found) {
   const SimRobot& robot_a = *bodies_.robots[pair.a];
   const SimRobot& robot_b = *bodies_.robots[pair.b];
-  if (!are_near(pair.a, pair.b)) return;
+  if (!are_near(pair.a, pair.b, 1)) return;
   const auto& parts_a = robot_a.collisions().parts;
   const auto& parts_b = robot_b.collisions().parts;
   for (size_t i = 0; i < parts_a.size(); ++i) {
@@ -490,7 +490,7 @@ void ContactDetector::find_ball_contacts(const Island& island, ContactCandidates
     add({Surface::Kind::kBall}, -1, surface, -1, proximity, -1, ball_static_memory_[s], found);
   }
   for (const int r : island.robots) {
-    if (!is_near_ball(r)) continue;
+    if (!is_near_ball(r, 1)) continue;
     const auto& parts = bodies_.robots[r]->collisions().parts;
     for (size_t p = 0; p < parts.size(); ++p) {
       const double reach = ball.radius + parts[p].bounding_radius + kReach;

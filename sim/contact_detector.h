@@ -34,12 +34,10 @@ class ContactDetector {
   void add_robot();
   /** Forgets a robot; those after it move up. */
   void remove_robot(int robot);
-  /** Begins a step. @param step_number  Rising by 1 from step to step. */
-  void begin_step(int64_t step_number) { step_number_ = step_number; }
-  /** Whether two robots may touch within the step, or a robot the ball, as far as their bounding
-   * spheres tell. */
-  bool are_near(int robot_a, int robot_b) const;
-  bool is_near_ball(int robot) const;
+  /** Whether two robots may touch within a number of steps, or a robot the ball, as far as their
+   * bounding spheres tell. */
+  bool are_near(int robot_a, int robot_b, int num_steps) const;
+  bool is_near_ball(int robot, int num_steps) const;
 
   // These may be called for different islands at the same time.
 
@@ -121,7 +119,6 @@ class ContactDetector {
   Floor floor_;
   double step_;
   std::vector<StaticShape> statics_;
-  int64_t step_number_ = 0;
   /** Parts of each robot. */
   std::vector<std::vector<PlacedPart>> placed_;
   std::vector<RobotMemory> robot_memory_;

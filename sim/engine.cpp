@@ -9,6 +9,17 @@
 
 namespace nao::sim {
 
+void Engine::step_tick() {
+  for (const auto& robot : bodies_.robots) robot->begin_tick();
+  for (int i = 0; i < options_.steps_per_tick; ++i) step();
+  for (int i = 0; i < bodies_.num_robots(); ++i) end_tick(i);
+}
+
+void Engine::end_tick(int index) {
+  SimRobot& robot = *bodies_.robots[index];
+  if (robot.is_within_bounds()) robot.end_tick(options_.period());
+}
+
 std::vector<std::string> engine_names() {
 #ifdef NAO_HAS_MUJOCO
   return {"fast", "simbody", "mujoco"};

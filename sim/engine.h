@@ -22,6 +22,8 @@ class Engine {
   enum class Stage { kDynamics, kCollision, kRows, kSolve, kIntegrate };
   using StageProbe = void (*)(Stage, void*);
 
+  /** @param options, bodies  Must outlive this. */
+  Engine(const WorldOptions& options, MovingBodies& bodies) : options_(options), bodies_(bodies) {}
   virtual ~Engine() = default;
 
   /** As in WorldOptions::engine. */
@@ -33,7 +35,11 @@ class Engine {
   /** Removes the robot of this index, which was removed from the bodies; only if
    * can_change_robots(). */
   virtual void remove_robot(int /*robot*/) {}
+  /** One step, without what robots do at the begin and end of a tick. */
   virtual void step() = 0;
+  /** One control tick of WorldOptions::steps_per_tick steps. Only robots that are within bounds
+   * after it get new sensor readings. */
+  virtual void step_tick();
   /** Forgets all contacts and counts from 0 again. */
   virtual void reset() = 0;
 
@@ -53,6 +59,13 @@ class Engine {
   virtual int last_iterations() const { return 0; }
   /** Calls `probe(stage, user)` after each stage of every step, if the engine has stages. */
   virtual void set_stage_probe(StageProbe /*probe*/, void* /*user*/) {}
+
+ protected:
+  /** Reads a robot's sensors after a tick, if it is within bounds. */
+  void end_tick(int robot);
+
+  const WorldOptions& options_;
+  MovingBodies& bodies_;
 };
 
 /** Names of the engines of this build. */

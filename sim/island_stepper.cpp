@@ -32,6 +32,12 @@ void IslandStepper::reserve(int max_robots, int num_dofs, int max_chain) {
   candidates_.reserve(num_contacts);
   max_contacts_ = num_contacts;
   assembler_.reserve(num_contacts, num_dofs, max_chain);
+  scaled_velocity_.setZero(num_dofs);
+}
+
+void IslandStepper::clear() {
+  last_step_ = -1;
+  assembler_.clear();
 }
 
 void IslandStepper::reset_count() {
@@ -41,13 +47,12 @@ void IslandStepper::reset_count() {
 
 // One step of the fast engine: (1) velocities with all smooth forces, (2) contact candidates, (3)
 // constraint rows, (4) impulses by projected Gauss-Seidel, (5) new positions.
-void IslandStepper::step(const Island& island, const Step& step, Eigen::VectorXd& scaled_velocity) {
+void IslandStepper::step(const Island& island, const Step& step) {
   const auto finish = [&step](Engine::Stage stage) {
     if (step.probe != nullptr) step.probe(stage, step.probe_user);
   };
-  begin_step(island, step, scaled_velocity);
+  begin_step(island, step);
   finish(Engine::Stage::kDynamics);
-  candidates_.clear();
   detector_.find(island, candidates_);
   finish(Engine::Stage::kCollision);
   add_contacts(0);
@@ -55,22 +60,25 @@ void IslandStepper::step(const Island& island, const Step& step, Eigen::VectorXd
     bodies_.robots[robot]->add_joint_rows(options_.step, solver_);
   }
   finish(Engine::Stage::kRows);
-  solve(island, scaled_velocity);
+  solve(island);
   finish(Engine::Stage::kSolve);
-  end_step(island, scaled_velocity);
+  end_step(island);
   finish(Engine::Stage::kIntegrate);
 }
 
-void IslandStepper::begin_step(const Island& island, const Step& step,
-                               Eigen::VectorXd& scaled_velocity) {
+void IslandStepper::begin_step(const Island& island, const Step& step) {
+  last_step_ = step.number;
+  candidates_.begin_step(step.number);
   solver_.clear();
   assembler_.begin_step(step.number);
   for (const int index : island.robots) {
     SimRobot& robot = *bodies_.robots[index];
     robot.begin_step(options_.step,
-                     scaled_velocity.segment(robot.first_dof(), robot.tree().num_dofs()));
+                     scaled_velocity_.segment(robot.first_dof(), robot.tree().num_dofs()));
   }
-  if (island.has_ball) bodies_.ball->begin_step(options_.step, options_.gravity, scaled_velocity);
+  if (island.has_ball) {
+    bodies_.ball->begin_step(options_.step, options_.gravity, scaled_velocity_);
+  }
 }
 
 void IslandStepper::add_contacts(size_t first_candidate) {
@@ -81,27 +89,25 @@ void IslandStepper::add_contacts(size_t first_candidate) {
   }
 }
 
-void IslandStepper::solve(const Island& island, Eigen::VectorXd& scaled_velocity) {
-  solver_.warm_start(scaled_velocity);
+void IslandStepper::solve(const Island& island) {
+  solver_.warm_start(scaled_velocity_);
   const ConstraintSolver::Options how{options_.max_iterations, options_.tolerance};
-  iterations_ = solver_.solve(scaled_velocity, how);
+  iterations_ = solver_.solve(scaled_velocity_, how);
   // Impulses that act within the step (a push, an impact elsewhere) may drive a motor beyond its
   // torque, or into the floor a point that did not move towards it before. Such constraints are
   // added, and the iterations continue from the present solution.
-  for (int round = 0; add_missed_constraints(island, scaled_velocity) && round < kMaxRounds;
-       ++round) {
-    iterations_ += solver_.solve(scaled_velocity, how);
+  for (int round = 0; add_missed_constraints(island) && round < kMaxRounds; ++round) {
+    iterations_ += solver_.solve(scaled_velocity_, how);
   }
 }
 
-bool IslandStepper::add_missed_constraints(const Island& island,
-                                           const Eigen::VectorXd& scaled_velocity) {
+bool IslandStepper::add_missed_constraints(const Island& island) {
   // Every robot is checked although one already has missed constraints: one further solution then
   // covers all of them.
   bool has_missed = false;
   for (const int index : island.robots) {
     SimRobot& robot = *bodies_.robots[index];
-    has_missed |= robot.add_missed_bounds(options_.step, scaled_velocity, solver_);
+    has_missed |= robot.add_missed_bounds(options_.step, scaled_velocity_, solver_);
     // find_missed_floor_contacts() reads velocities of the solution, not of the step's start.
     robot.take_velocities();
     const size_t num_candidates = candidates_.list().size();
@@ -113,10 +119,10 @@ bool IslandStepper::add_missed_constraints(const Island& island,
 
 // The assembler comes first: it tells robots which of their feet carry load, and whether they are
 // in contact.
-void IslandStepper::end_step(const Island& island, const Eigen::VectorXd& scaled_velocity) {
+void IslandStepper::end_step(const Island& island) {
   assembler_.end_step(solver_);
   for (const int robot : island.robots) bodies_.robots[robot]->end_step(options_.step, solver_);
-  if (island.has_ball) bodies_.ball->end_step(options_.step, scaled_velocity);
+  if (island.has_ball) bodies_.ball->end_step(options_.step, scaled_velocity_);
 }
 
 }  // namespace nao::sim

@@ -17,9 +17,9 @@ namespace nao::sim {
 
 /** One time step of the bodies of an island, and the memory for it.
  *
- * Touches no body outside the island, and of a vector over all bodies only the island's elements:
- * different islands may be stepped at the same time. */
-class IslandStepper {
+ * Touches no body outside the island: different islands may be stepped at the same time, by cores
+ * that exchange two cache lines at a time. */
+class alignas(128) IslandStepper {
  public:
   /** Input of a step besides the island. */
   struct Step {
@@ -36,13 +36,15 @@ class IslandStepper {
    * @param max_chain  Most dofs between a root and a body of its robot. */
   void reserve(int max_robots, int num_dofs, int max_chain);
 
-  /** Nothing is allocated. @param scaled_velocity  Workspace, (num_dofs). */
-  void step(const Island& island, const Step& step, Eigen::VectorXd& scaled_velocity);
-  /** Forgets the last step's contacts. */
-  void clear() { assembler_.clear(); }
+  /** Nothing is allocated. */
+  void step(const Island& island, const Step& step);
+  /** Forgets the last step and its contacts. */
+  void clear();
   void reset_count();
   size_t max_contacts() const { return max_contacts_; }
 
+  /** Number of the last step; -1 if there was none. */
+  int64_t last_step() const { return last_step_; }
   /** Results of the last step: contacts with a force; energy in their springs, J; solver
    * iterations.
    */
@@ -53,11 +55,11 @@ class IslandStepper {
   int64_t num_dropped() const { return candidates_.num_dropped() + num_dropped_blocks_; }
 
  private:
-  void begin_step(const Island& island, const Step& step, Eigen::VectorXd& scaled_velocity);
+  void begin_step(const Island& island, const Step& step);
   void add_contacts(size_t first_candidate);
-  void solve(const Island& island, Eigen::VectorXd& scaled_velocity);
-  bool add_missed_constraints(const Island& island, const Eigen::VectorXd& scaled_velocity);
-  void end_step(const Island& island, const Eigen::VectorXd& scaled_velocity);
+  void solve(const Island& island);
+  bool add_missed_constraints(const Island& island);
+  void end_step(const Island& island);
 
   const WorldOptions& options_;
   MovingBodies& bodies_;
@@ -65,6 +67,10 @@ class IslandStepper {
   ContactCandidates candidates_;
   ContactAssembler assembler_;
   ConstraintSolver solver_;
+  /** The generalized velocity u of all bodies, of which only the island's elements are used, scaled
+   * by the factor of the mass matrix M = L^T L: L u, (num_dofs). */
+  Eigen::VectorXd scaled_velocity_;
+  int64_t last_step_ = -1;
   size_t max_contacts_ = 0;
   int64_t num_dropped_blocks_ = 0;
   int iterations_ = 0;

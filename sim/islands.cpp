@@ -7,8 +7,7 @@
 namespace nao::sim {
 
 void Islands::reserve(int num_robots, bool has_ball) {
-  num_robots_ = num_robots;
-  has_ball_ = has_ball;
+  ball_ = num_robots;
   const int num_bodies = num_robots + (has_ball ? 1 : 0);
   parents_.resize(num_bodies);
   island_of_root_.resize(num_bodies);
@@ -27,31 +26,31 @@ void Islands::connect(int a, int b) {
   parents_[std::max(root_a, root_b)] = std::min(root_a, root_b);
 }
 
-std::span<const Island> Islands::find(const ContactDetector& detector) {
-  const int num_bodies = static_cast<int>(parents_.size());
-  for (int body = 0; body < num_bodies; ++body) parents_[body] = body;
-  for (int a = 0; a < num_robots_; ++a) {
-    for (int b = a + 1; b < num_robots_; ++b) {
-      if (detector.are_near(a, b)) connect(a, b);
-    }
-    if (has_ball_ && detector.is_near_ball(a)) connect(a, num_robots_);
+Island& Islands::island_of(int body) {
+  const int root = root_of(body);
+  if (root == body) {
+    island_of_root_[root] = num_islands_++;
+    islands_[island_of_root_[root]].robots.clear();
+    islands_[island_of_root_[root]].has_ball = false;
   }
-  int count = 0;
-  for (int body = 0; body < num_bodies; ++body) {
-    const int root = root_of(body);
-    if (root == body) {
-      island_of_root_[root] = count++;
-      islands_[island_of_root_[root]].robots.clear();
-      islands_[island_of_root_[root]].has_ball = false;
+  return islands_[island_of_root_[root]];
+}
+
+std::span<const Island> Islands::find(const Island& bodies, int num_steps,
+                                      const ContactDetector& detector) {
+  for (const int robot : bodies.robots) parents_[robot] = robot;
+  if (bodies.has_ball) parents_[ball_] = ball_;
+  for (const int b : bodies.robots) {
+    for (const int a : bodies.robots) {
+      if (a >= b) break;
+      if (detector.are_near(a, b, num_steps)) connect(a, b);
     }
-    Island& island = islands_[island_of_root_[root]];
-    if (body < num_robots_) {
-      island.robots.push_back(body);
-    } else {
-      island.has_ball = true;
-    }
+    if (bodies.has_ball && detector.is_near_ball(b, num_steps)) connect(b, ball_);
   }
-  return {islands_.data(), static_cast<size_t>(count)};
+  num_islands_ = 0;
+  for (const int robot : bodies.robots) island_of(robot).robots.push_back(robot);
+  if (bodies.has_ball) island_of(ball_).has_ball = true;
+  return {islands_.data(), static_cast<size_t>(num_islands_)};
 }
 
 }  // namespace nao::sim

@@ -63,7 +63,7 @@ int rank(const Surface& surface) {
 
 MujocoEngine::MujocoEngine(const SceneFile& scene, const WorldOptions& options,
                            MovingBodies& bodies)
-    : options_(options), bodies_(bodies), statics_(make_goal_shapes(scene)) {
+    : Engine(options, bodies), statics_(make_goal_shapes(scene)) {
   use_our_floor();
   build();
 }
@@ -230,6 +230,7 @@ void MujocoEngine::apply_forces_on_ball() {
 }
 
 void MujocoEngine::step() {
+  for (const auto& robot : bodies_.robots) robot->apply_drag(options_.step);
   for (int i = 0; i < bodies_.num_robots(); ++i) apply_forces(i);
   if (bodies_.ball) apply_forces_on_ball();
   mj_step(model_.get(), data_.get());

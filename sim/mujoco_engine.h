@@ -49,8 +49,6 @@ class MujocoEngine : public Engine {
   void write_ball();
   bool has_failed() const;
 
-  const WorldOptions& options_;
-  MovingBodies& bodies_;
   std::vector<StaticShape> statics_;
   MujocoModelPointer model_;
   MujocoDataPointer data_;

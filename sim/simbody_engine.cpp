@@ -382,8 +382,7 @@ class SimbodyEngine::BallSystem {
 
 SimbodyEngine::SimbodyEngine(const SceneFile& scene, const WorldOptions& options,
                              MovingBodies& bodies)
-    : options_(options),
-      bodies_(bodies),
+    : Engine(options, bodies),
       detector_(scene, bodies, Floor(options.floor), options.step),
       law_(bodies, options, options.step / num_substeps(options.step)) {
   whole_.has_ball = bodies_.ball.has_value();
@@ -424,6 +423,7 @@ void SimbodyEngine::forget_contacts_of_ball() {
 // Robots and ball are systems of their own, stepped one after the other: each sees the others in
 // their latest state. Contacts are collected when all have moved, from final states.
 void SimbodyEngine::step() {
+  for (const auto& robot : bodies_.robots) robot->apply_drag(options_.step);
   for (const auto& robot : robots_) robot->step(options_.step);
   if (ball_ != nullptr) ball_->step(options_.step);
   ++num_steps_;
@@ -432,8 +432,7 @@ void SimbodyEngine::step() {
 }
 
 const std::vector<ContactCandidate>& SimbodyEngine::find_candidates() {
-  detector_.begin_step(num_steps_);
-  candidates_.clear();
+  candidates_.begin_step(num_steps_);
   detector_.find(whole_, candidates_);
   return candidates_.list();
 }

@@ -43,8 +43,6 @@ class SimbodyEngine : public Engine {
   /** Number of a substep of this step since the start. */
   int64_t number_of(int substep) const;
 
-  const WorldOptions& options_;
-  MovingBodies& bodies_;
   ContactDetector detector_;
   CompliantContact law_;
   /** All bodies: they are stepped together. */

@@ -1,13 +1,16 @@
 #pragma once
 
 #include <atomic>
+#include <cstddef>
+#include <cstdint>
 #include <thread>
 #include <vector>
 
 namespace nao::sim {
 
-/** Threads that share the work of a time step, which takes some 10 us: between two steps of a tick
- * they look for work without going to sleep. The calling thread is one of them. */
+/** Threads that share the work of a tick, which takes some 10 us a robot: between two ticks that
+ * follow each other at once they look for work without going to sleep. The calling thread is one
+ * of them, and takes everything that the others do not take in time. */
 class StepThreads {
  public:
   /** @param count  Number of threads, including the calling one; 1 or more. */
@@ -26,18 +29,27 @@ class StepThreads {
 
  private:
   using Call = void (*)(void*, int);
+  /** Bytes that cores exchange together: two cache lines of x86-64. */
+  static constexpr size_t kLine = 128;
+  /** The items of a thread, i = thread, thread + threads, ...: the first one that nobody took in
+   * the low 32 bits, the end of all items above. */
+  struct alignas(kLine) Share {
+    std::atomic<uint64_t> next_and_end{0};
+  };
 
   void run(int count, Call call, void* context);
-  void take_items();
-  void work();
+  /** Takes items that nobody took: first a thread's own, so that an item's data stay in the cache
+   * of one core from step to step; then those of threads that are late. */
+  void take_items(size_t thread);
+  void work(size_t thread);
 
-  Call call_ = nullptr;
+  std::vector<Share> shares_;
+  alignas(kLine) Call call_ = nullptr;
   void* context_ = nullptr;
-  int count_ = 0;
-  std::atomic<int> next_item_{0};
-  std::atomic<int> num_working_{0};
+  /** Items that are not done yet. */
+  alignas(kLine) std::atomic<int> num_open_{0};
   /** Rises with every run(), and at the end. */
-  std::atomic<unsigned> round_{0};
+  alignas(kLine) std::atomic<unsigned> round_{0};
   std::atomic<bool> is_ending_{false};
   std::vector<std::jthread> threads_;
 };

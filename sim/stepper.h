@@ -1,6 +1,5 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -22,8 +21,10 @@ namespace nao::sim {
  * implicit (on the diagonal of the mass matrix); contacts, joint stops, dry friction and torque
  * limits are constraints that a projected Gauss-Seidel solver satisfies. See docs/physics.md.
  *
- * Islands are stepped one after the other, or by several threads (WorldOptions::num_threads), with
- * the same bits as result: no island reads what another one writes. */
+ * A tick has groups of bodies that cannot touch each other's within it; a group is one work item of
+ * the threads (WorldOptions::num_threads) for the whole tick. In each step a group's islands are
+ * stepped one after the other. No group reads what another one writes, so that the bits do not
+ * depend on the number of threads. */
 class Stepper : public Engine {
  public:
   /** @param bodies, options  Must outlive this. */
@@ -36,6 +37,7 @@ class Stepper : public Engine {
   void remove_robot(int robot) override;
   /** Nothing is allocated. */
   void step() override;
+  void step_tick() override;
   void reset() override;
 
   void forget_contacts_of_robot(int robot) override { detector_.forget_robot(robot); }
@@ -55,19 +57,23 @@ class Stepper : public Engine {
  private:
   void reserve();
   void clear_contacts();
-  /** Combines the results of the islands' steps. */
-  void collect(size_t num_islands);
+  /** Index of the first body, where the ball comes after the robots. */
+  int first_body(const Island& island) const;
+  /** Calls work(group) for all groups of bodies that cannot touch within a number of steps. */
+  template <class Work>
+  void for_each_group(int num_steps, Work work);
+  void step_group(const Island& group, int64_t step_number);
+  /** Combines the results of the islands' last step. */
+  void collect();
 
-  const WorldOptions& options_;
-  MovingBodies& bodies_;
   ContactDetector detector_;
-  Islands islands_;
-  /** One for each possible island. */
+  Island all_bodies_;
+  Islands groups_;
+  /** By the group's first body: its division into islands. */
+  std::vector<Islands> islands_;
+  /** By the island's first body. */
   std::vector<std::unique_ptr<IslandStepper>> steppers_;
   StepThreads threads_;
-  /** The generalized velocity u of all bodies, scaled by the factor of the mass matrix M = L^T L:
-   * L u, (num_dofs). */
-  Eigen::VectorXd scaled_velocity_;
   std::vector<Contact> contacts_;
   double elastic_energy_ = 0;
   int64_t num_steps_ = 0;

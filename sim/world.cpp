@@ -89,18 +89,15 @@ void World::set_targets(int robot, const MotorTargets& targets) {
 }
 
 void World::step() {
-  for (const auto& robot : bodies_.robots) robot->apply_drag(options_.step);
   engine_->step();
 }
 
 void World::step_tick() {
   // Motors get new targets and sensors are read once a control period; the physics takes several
   // steps in between.
-  for (const auto& robot : bodies_.robots) robot->begin_tick();
-  for (int i = 0; i < options_.steps_per_tick; ++i) step();
+  engine_->step_tick();
   ++tick_;
   check_states();
-  for (const auto& robot : bodies_.robots) robot->end_tick(options_.period());
 }
 
 void World::check_states() {
@@ -110,6 +107,7 @@ void World::check_states() {
     if (robot(i).is_within_bounds()) continue;
     ++num_bad_states_;
     return_to_start(i);
+    bodies_.robots[i]->end_tick(options_.period());
   }
   if (bodies_.ball && !bodies_.ball->is_within_bounds()) {
     ++num_bad_states_;

@@ -58,8 +58,8 @@ struct Materials {
 struct WorldOptions {
   /** Physics engine, see engine_names(): "fast", "simbody", or "mujoco" where it was built. */
   std::string engine = "fast";
-  /** Threads that step islands of bodies at the same time, with the engine "fast"; 1 to 64. The
-   * result does not depend on it. */
+  /** Threads that step bodies far from each other at the same time, with the engine "fast"; 1
+   * to 64. The result does not depend on it. */
   int num_threads = 1;
   /** Length of a physics step, s, and steps per control tick. */
   double step = 0.002;
