@@ -46,9 +46,6 @@ struct RobotState {
    * gyroscope, rad, if it has been too great for too long (OrientationCheck); else 0. */
   double orientation_doubt = 0;
 
-  /** Time for which torso and joints have not moved, s. */
-  double rest_time = 0;
-
   /** Convex, counter-clockwise from above, m, in O; empty while no foot carries weight. */
   std::vector<Eigen::Vector2d> support_polygon_in_odometry;
   /** Distance of the center of mass's ground projection to the polygon's edge, m; negative outside,

@@ -89,7 +89,6 @@ void StateEstimator::detect_rest(const Sensors& sensors, double dt) {
     is_at_rest = is_at_rest && std::abs(velocity) < kRestJointVelocity;
   }
   rest_time_ = is_at_rest ? rest_time_ + dt : 0;
-  state_.rest_time = rest_time_;
 }
 
 void StateEstimator::estimate_orientation(const Sensors& sensors, double dt) {
