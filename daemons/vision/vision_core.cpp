@@ -115,8 +115,9 @@ VisionResult VisionCore::process(const VisionInput& input) {
   }
   VisionResult result;
   const CameraGeometry geometry(input.calibration, input.pose_camera_in_heading);
+  const PatchSampler sampler(input.bgr);
   result.image_status =
-      status_.check(input.bgr, input.camera, input.utime, input.pose_camera_in_heading,
+      status_.check(sampler, input.camera, input.utime, input.pose_camera_in_heading,
                     geometry.horizon_row(0.5 * input.bgr.cols));
   finish_stage("image status");
   // The filter predicts in every image, so that the ball's estimate ages even while it is not seen.
@@ -132,7 +133,6 @@ VisionResult VisionCore::process(const VisionInput& input) {
   finish_stage("field");
   // The robot looks up or over the border, so that apparent objects there are false.
   if (view.fraction < kLeastField) return result;
-  const PatchSampler sampler(input.bgr);
   FoundObjects objects = objects_.detect(sampler.half(), input.bgr.cols, input.bgr.rows, geometry);
   finish_stage("objects");
   std::vector<Circle>& places = objects.balls;
