@@ -131,6 +131,11 @@ void find_color(const cv::Mat_<float>& index, const VisionParameters::FieldDetec
                               static_cast<float>(parameters.greatest_fraction) * view.index);
 }
 
+/** The level at or below a number, 0 to 255. */
+int level(float number) {
+  return static_cast<int>(std::min(std::max(number, 0.0f), 255.0f));
+}
+
 /** Sets other_or_yellow. */
 void add_yellow(const Planes& half, FieldView& view) {
   view.other_or_yellow.create(view.other.size());
@@ -145,17 +150,18 @@ void add_yellow(const Planes& half, FieldView& view) {
                                    static_cast<float>(field[2]));
   // Linear from the field's redness (0) to that of yellow (255), or of orange on a pale field.
   const float slope = 255 / std::max(kYellow - redness, kLeastAway);
+  const int width = view.other.cols;
   for (int y = 0; y < view.other.rows; ++y) {
     const uint8_t* blue = half.blue[y];
     const uint8_t* green = half.green[y];
     const uint8_t* red = half.red[y];
     const uint8_t* other = view.other[y];
     uint8_t* target = view.other_or_yellow[y];
-    for (int x = 0; x < view.other.cols; ++x) {
-      const float value = slope * (redness_of(blue[x], green[x], red[x]) - redness);
-      const auto yellow = static_cast<uint8_t>(std::clamp(value, 0.0f, 255.0f));
+    for (int x = 0; x < width; ++x) {
+      const int yellow = level(slope * (redness_of(blue[x], green[x], red[x]) - redness));
       // Green is never yellow, on however green a field.
-      target[x] = 8 * red[x] < 7 * green[x] ? other[x] : std::max(other[x], yellow);
+      const int least = 8 * red[x] < 7 * green[x] ? 0 : yellow;
+      target[x] = static_cast<uint8_t>(std::max<int>(other[x], least));
     }
   }
 }
@@ -215,26 +221,28 @@ FieldView FieldDetector::detect(const cv::Mat& bgr, const CameraGeometry& geomet
   cv::Mat_<cv::Vec3b> half;
   cv::resize(view.smooth, half, {bgr.cols / 2, bgr.rows / 2}, 0, 0, cv::INTER_AREA);
   const Planes planes(half);
+  const int width = half.cols;
   cv::Mat_<float> index(half.size());
   for (int y = 0; y < half.rows; ++y) {
     const uint8_t* blue = planes.blue[y];
     const uint8_t* green = planes.green[y];
     const uint8_t* red = planes.red[y];
     float* target = index[y];
-    for (int x = 0; x < half.cols; ++x) target[x] = green_index(blue[x], green[x], red[x]);
+    for (int x = 0; x < width; ++x) target[x] = green_index(blue[x], green[x], red[x]);
   }
   find_color(index, parameters_, view);
   view.other.create(half.rows, half.cols);
   // Linear between the field's index (0) and that of grey (255); 128 at the threshold.
-  const float slope = 127.0f / (view.index - view.threshold);
+  const float threshold = view.threshold;
+  const float slope = 127.0f / (view.index - threshold);
   int num_green = 0;
   for (int y = 0; y < half.rows; ++y) {
     const float* source = index[y];
     uint8_t* target = view.other[y];
-    for (int x = 0; x < half.cols; ++x) {
-      const float value = 128.0f + slope * (view.threshold - source[x]);
-      target[x] = static_cast<uint8_t>(std::clamp(value, 0.0f, 255.0f));
-      num_green += target[x] < 128;
+    for (int x = 0; x < width; ++x) {
+      const int other = level(128.0f + slope * (threshold - source[x]));
+      target[x] = static_cast<uint8_t>(other);
+      num_green += other < 128;
     }
   }
   view.fraction = static_cast<double>(num_green) / static_cast<double>(half.total());
