@@ -1,5 +1,7 @@
 #include "daemons/vision/vision_core.h"
 
+#include <malloc.h>
+
 #include <algorithm>
 
 #include "common/data_path.h"
@@ -13,6 +15,8 @@ namespace {
 
 /** Least fraction of field in an image for objects to be detected on it. */
 constexpr double kLeastField = 0.03;
+/** Free memory that is kept, bytes: more than an image of 1280x960 needs, about 12 MB. */
+constexpr int kKeptMemory = 16 << 20;
 
 bool is_in(const Eigen::Vector4d& box, const cv::Point2f& pixel) {
   return pixel.x > box[0] && pixel.x < box[2] && pixel.y > box[1] && pixel.y < box[3];
@@ -42,6 +46,12 @@ const char* kind_name(Kind kind) {
       return "penalty-mark";
   }
   return "";
+}
+
+void configure_process() {
+  cv::setNumThreads(1);
+  mallopt(M_MMAP_THRESHOLD, kKeptMemory);
+  mallopt(M_TRIM_THRESHOLD, kKeptMemory);
 }
 
 VisionNetworks VisionNetworks::load() {
