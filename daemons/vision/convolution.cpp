@@ -58,7 +58,7 @@ Convolution::Convolution(const Shape& shape, const std::vector<float>& weights,
   const int num_vectors = outputs / lanes;
   block_ = lanes * (num_vectors % 3 == 0 ? 3 : num_vectors % 2 == 0 ? 2 : 1);
   const int area = shape.kernel * shape.kernel;
-  weights_.reserve(static_cast<size_t>(outputs * area * input_channels));
+  weights_.reserve(static_cast<size_t>(outputs) * area * input_channels);
   for (int first = 0; first < outputs; first += block_) {
     for (int place = 0; place < area; ++place) {
       for (int input = 0; input < input_channels; ++input) {

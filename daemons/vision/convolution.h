@@ -19,11 +19,11 @@ struct Activations {
   /** Takes the memory, once the members above are set. */
   void allocate() { numbers.assign(static_cast<size_t>(rows + 2 * border) * row_step(), 0.0f); }
   /** Distance between two rows. */
-  size_t row_step() const { return static_cast<size_t>((columns + 2 * border) * channels); }
+  size_t row_step() const { return static_cast<size_t>(columns + 2 * border) * channels; }
   /** @param row, column  From -border. */
   float* at(int row, int column) {
     return numbers.data() + static_cast<size_t>(row + border) * row_step() +
-           static_cast<size_t>((column + border) * channels);
+           static_cast<size_t>(column + border) * channels;
   }
   const float* at(int row, int column) const {
     return const_cast<Activations*>(this)->at(row, column);
