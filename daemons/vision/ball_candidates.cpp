@@ -25,7 +25,7 @@ constexpr float kInner = 0.65f;
 constexpr float kTouching = 0.4f;
 /** Levels of FieldView::other_or_yellow: least mean of the box inside, least score. Chosen low,
  * since the network rejects what is not a ball. */
-constexpr float kInside = 60;
+constexpr int kInside = 60;
 constexpr float kLeastScore = 45;
 /** Distance between columns for which the expected radius is computed, pixels of the half-size
  * image. */
@@ -54,23 +54,23 @@ class Search {
     cv::integral(view.other_or_yellow, sum_, CV_32S);
   }
 
-  void add(int x, int y, float r, size_t number = 0) {
-    const auto fx = static_cast<float>(x);
+  /** Tests places x = first, first + step, ... below `end` of row y, in columns whose field begins
+   * at most in row `lowest_top`. */
+  void add_row(int y, float r, int first, int end, int step, int lowest_top, size_t number = 0) {
+    // Most places are rejected by the box inside, whose rows are the same for all of them.
     const auto fy = static_cast<float>(y);
-    const float inside = mean(fx - kInner * r, fy - kInner * r, fx + kInner * r, fy + kInner * r);
-    if (inside < kInside) return;
-    // The boxes are left, right and below; above, there may be anything, such as a goal behind the
-    // field.
-    std::array<float, 3> sides = {
-        mean(fx - 1.9f * r - 1, fy - 0.5f * r, fx - 1.3f * r - 0.5f, fy + 0.5f * r),
-        mean(fx + 1.3f * r + 0.5f, fy - 0.5f * r, fx + 1.9f * r + 1, fy + 0.5f * r),
-        mean(fx - 0.5f * r, fy + 1.25f * r + 0.5f, fx + 0.5f * r, fy + 1.8f * r + 1)};
-    std::sort(sides.begin(), sides.end());
-    // A line or another robot may touch the ball on one side.
-    const float score = inside - (sides[0] + sides[1] + kTouching * sides[2]) / (2 + kTouching);
-    if (score < kLeastScore) return;
-    // From pixels of the half-size image to pixels of the full one: centers are half a pixel off.
-    hints_.push_back({{{2 * fx + 0.5f, 2 * fy + 0.5f}, 2 * r}, score, number});
+    const int y0 = round_within(fy - kInner * r, view_.other.rows);
+    const int y1 = round_within(fy + kInner * r + 1, view_.other.rows);
+    const int* above = sum_[y0];
+    const int* below = sum_[y1];
+    for (int x = first; x < end; x += step) {
+      if (view_.top[x] > lowest_top) continue;
+      const auto fx = static_cast<float>(x);
+      const int x0 = round_within(fx - kInner * r, view_.other.cols);
+      const int x1 = round_within(fx + kInner * r + 1, view_.other.cols);
+      const int sum = below[x1] - above[x1] - below[x0] + above[x0];
+      if (sum >= kInside * (x1 - x0) * (y1 - y0)) add(x, y, r, number);
+    }
   }
 
   /** Keeps the best ones; among overlapping ones of similar size, only the best.
@@ -100,6 +100,24 @@ class Search {
   }
 
  private:
+  void add(int x, int y, float r, size_t number) {
+    const auto fx = static_cast<float>(x);
+    const auto fy = static_cast<float>(y);
+    const float inside = mean(fx - kInner * r, fy - kInner * r, fx + kInner * r, fy + kInner * r);
+    // The boxes are left, right and below; above, there may be anything, such as a goal behind the
+    // field.
+    std::array<float, 3> sides = {
+        mean(fx - 1.9f * r - 1, fy - 0.5f * r, fx - 1.3f * r - 0.5f, fy + 0.5f * r),
+        mean(fx + 1.3f * r + 0.5f, fy - 0.5f * r, fx + 1.9f * r + 1, fy + 0.5f * r),
+        mean(fx - 0.5f * r, fy + 1.25f * r + 0.5f, fx + 0.5f * r, fy + 1.8f * r + 1)};
+    std::sort(sides.begin(), sides.end());
+    // A line or another robot may touch the ball on one side.
+    const float score = inside - (sides[0] + sides[1] + kTouching * sides[2]) / (2 + kTouching);
+    if (score < kLeastScore) return;
+    // From pixels of the half-size image to pixels of the full one: centers are half a pixel off.
+    hints_.push_back({{{2 * fx + 0.5f, 2 * fy + 0.5f}, 2 * r}, score, number});
+  }
+
   /** Mean over a box, the part in the image; what is outside of it counts as field. */
   float mean(float left, float top, float right, float bottom) const {
     const int x0 = round_within(left, view_.other.cols);
@@ -130,9 +148,7 @@ std::vector<Circle> find_ball_hints(const FieldView& view, const CameraGeometry&
       const float r = kRadii[number];
       const int step = std::max(2, static_cast<int>(0.35f * r));
       for (int y = 0; y < height + static_cast<int>(0.4f * r); y += step) {
-        for (int x = 0; x < width; x += step) {
-          if (view.top[x] <= y) search.add(x, y, r, number);
-        }
+        search.add_row(y, r, 0, width, step, y, number);
       }
     }
     return search.best(kMostHints, kMostOfRadius);
@@ -155,9 +171,8 @@ std::vector<Circle> find_ball_hints(const FieldView& view, const CameraGeometry&
       }
       if (r < kLeastRadius || r > static_cast<float>(height)) continue;
       const int step = std::max(1, static_cast<int>(0.25f * r));
-      for (int x = left; x < std::min(left + kColumns, width); x += step) {
-        if (view.top[x] <= y + static_cast<int>(0.8f * r)) search.add(x, y, r);
-      }
+      search.add_row(y, r, left, std::min(left + kColumns, width), step,
+                     y + static_cast<int>(0.8f * r));
     }
   }
   return search.best(kMostHintsWithPose, 0);

@@ -1,8 +1,8 @@
 #include "daemons/vision/camera_geometry.h"
-#include "common/constants.h"
 
 #include <cmath>
-#include <opencv2/calib3d.hpp>
+
+#include "common/constants.h"
 
 namespace nao::vision {
 namespace {
@@ -15,6 +15,8 @@ constexpr double kNear = 0.02;
 constexpr double kPixelStep = 0.25;
 constexpr double kAngleStep = 1e-4;
 constexpr double kHeightStep = 1e-4;
+/** Steps by which an ideal pixel is found: as many as cv::undistortPoints() makes. */
+constexpr int kUndistortionSteps = 5;
 
 }  // namespace
 
@@ -41,18 +43,33 @@ CameraGeometry::CameraGeometry(const CameraCalibration& calibration,
     : calibration_(calibration), pose_(pose_camera_in_heading), noise_(noise) {}
 
 std::vector<cv::Point2f> CameraGeometry::undistorted(const std::vector<cv::Point2f>& pixels) const {
-  if (pixels.empty() || !calibration_.has_distortion()) return pixels;
-  const CameraCalibration& c = calibration_;
-  const cv::Matx33d matrix(c.fx, 0, c.cx, 0, c.fy, c.cy, 0, 0, 1);
-  const cv::Vec<double, 5> coefficients(c.distortion.data());
   std::vector<cv::Point2f> ideal;
-  // With the matrix as the last argument the result is in pixels of the ideal camera.
-  cv::undistortPoints(pixels, ideal, matrix, coefficients, cv::noArray(), matrix);
+  ideal.reserve(pixels.size());
+  for (const cv::Point2f& pixel : pixels) ideal.push_back(undistorted(pixel));
   return ideal;
 }
 
+// Fixed-point iteration of distorted(): from the distorted place the tangential shift is taken away
+// and the rest is divided by the radial factor, both of the last estimate.
 cv::Point2f CameraGeometry::undistorted(const cv::Point2f& pixel) const {
-  return undistorted(std::vector<cv::Point2f>{pixel})[0];
+  const CameraCalibration& c = calibration_;
+  if (!c.has_distortion()) return pixel;
+  const auto& [k1, k2, p1, p2, k3] = c.distortion;
+  const double distorted_x = (pixel.x - c.cx) / c.fx;
+  const double distorted_y = (pixel.y - c.cy) / c.fy;
+  double x = distorted_x;
+  double y = distorted_y;
+  for (int step = 0; step < kUndistortionSteps; ++step) {
+    const double r2 = x * x + y * y;
+    const double radial = 1 + r2 * (k1 + r2 * (k2 + r2 * k3));
+    // Beyond what the lens shows the distorted place is the best estimate.
+    if (radial <= 0) return pixel;
+    const double shift_x = 2 * p1 * x * y + p2 * (r2 + 2 * x * x);
+    const double shift_y = p1 * (r2 + 2 * y * y) + 2 * p2 * x * y;
+    x = (distorted_x - shift_x) / radial;
+    y = (distorted_y - shift_y) / radial;
+  }
+  return {static_cast<float>(c.cx + c.fx * x), static_cast<float>(c.cy + c.fy * y)};
 }
 
 cv::Point2f CameraGeometry::distorted(const cv::Point2f& ideal) const {

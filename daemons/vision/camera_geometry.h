@@ -58,7 +58,7 @@ class CameraGeometry {
 
   bool has_pose() const { return pose_.has_value(); }
 
-  /** Ideal pixels of pixels of the image; all at once, since single calls are slow. */
+  /** Ideal pixels of pixels of the image. */
   std::vector<cv::Point2f> undistorted(const std::vector<cv::Point2f>& pixels) const;
   cv::Point2f undistorted(const cv::Point2f& pixel) const;
   /** Pixel of the image of an ideal pixel. */

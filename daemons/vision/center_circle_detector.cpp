@@ -59,6 +59,8 @@ std::optional<Detection> CenterCircleDetector::detect(std::vector<LinePoint>& po
   // RANSAC with a fixed seed, so that an image always gives the same result. Two points and the
   // known radius determine two circles.
   Random random(2);
+  std::vector<double> tolerances;
+  for (const Eigen::Vector2d& point : ground) tolerances.push_back(tolerance(point));
   size_t best_sectors = 0;
   std::vector<size_t> best;
   Eigen::Vector2d best_center = Eigen::Vector2d::Zero();
@@ -75,11 +77,16 @@ std::optional<Detection> CenterCircleDetector::detect(std::vector<LinePoint>& po
           0.5 * (a + b) + side * std::sqrt(radius_ * radius_ - half * half) * normal;
       std::bitset<kNumSectors> sectors;
       std::vector<size_t> on_circle;
+      // The tolerance grows with distance, as the projection's error does.
       for (size_t i = 0; i < ground.size(); ++i) {
+        if (std::abs((ground[i] - center).norm() - radius_) <= tolerances[i])
+          on_circle.push_back(i);
+      }
+      // Most circles have too few points to be the best, in however many directions.
+      const size_t most_sectors = std::min<size_t>(on_circle.size(), kNumSectors);
+      if (most_sectors * on_circle.size() <= best_sectors * best.size()) continue;
+      for (const size_t i : on_circle) {
         const Eigen::Vector2d d = ground[i] - center;
-        // The tolerance grows with distance, as the projection's error does.
-        if (std::abs(d.norm() - radius_) > tolerance(ground[i])) continue;
-        on_circle.push_back(i);
         const double turn = std::atan2(d.y(), d.x()) / (2 * M_PI) + 0.5;
         sectors.set(std::min(kNumSectors - 1, static_cast<int>(turn * kNumSectors)));
       }

@@ -11,9 +11,12 @@ namespace nao::vision {
 
 /** Saturation towards green of a color: (2 G - R - B) / (R + G + B), -1 to 2; 0 of greys. It does
  * not depend on the brightness, so that a field in shadow and in light have similar values. */
+inline float green_index(int blue, int green, int red) {
+  const int sum = blue + green + red + 6;  // the 6 makes dark noise count as grey
+  return static_cast<float>(2 * green - blue - red) / static_cast<float>(sum);
+}
 inline float green_index(const cv::Vec3b& bgr) {
-  const int sum = bgr[0] + bgr[1] + bgr[2] + 6;  // the 6 makes dark noise count as grey
-  return static_cast<float>(2 * bgr[1] - bgr[0] - bgr[2]) / static_cast<float>(sum);
+  return green_index(bgr[0], bgr[1], bgr[2]);
 }
 
 /** Mean of red and blue, 0 to 255: in it white differs more from a green carpet than in the

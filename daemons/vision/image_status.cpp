@@ -9,10 +9,6 @@
 namespace nao::vision {
 namespace {
 
-/** Side by which the image is reduced: the statistics need no more. */
-constexpr int kWidth = 64;
-constexpr int kHeight = 48;
-
 bool are_equal(const cv::Mat& a, const cv::Mat& b) {
   if (a.size() != b.size() || a.type() != b.type()) return false;
   const size_t row_size = a.cols * a.elemSize();
@@ -69,12 +65,11 @@ bool ImageStatusMonitor::is_frozen(const cv::Mat& bgr, const std::string& camera
 // The first state that holds: overexposed, covered, frozen, inverted; otherwise ok. Detectors run
 // on images that are ok only.
 ImageStatus ImageStatusMonitor::check(
-    const cv::Mat& bgr, const std::string& camera, int64_t utime,
+    const PatchSampler& image, const std::string& camera, int64_t utime,
     const std::optional<Eigen::Isometry3d>& pose_camera_in_heading,
     const std::optional<double>& horizon) {
-  cv::Mat_<cv::Vec3b> small;
-  cv::resize(bgr, small, {kWidth, kHeight}, 0, 0, cv::INTER_AREA);
-  const bool may_be_frozen = is_frozen(bgr, camera, utime, pose_camera_in_heading);
+  const cv::Mat_<cv::Vec3b> small = image.eighth();
+  const bool may_be_frozen = is_frozen(image.full(), camera, utime, pose_camera_in_heading);
 
   cv::Scalar mean;
   cv::Scalar deviation;
@@ -86,7 +81,7 @@ ImageStatus ImageStatusMonitor::check(
   if (num_white > parameters_.white_fraction * static_cast<double>(grey.total())) {
     return ImageStatus::kOverexposed;
   }
-  const double green = green_fraction(small, 0, kHeight, parameters_.green);
+  const double green = green_fraction(small, 0, small.rows, parameters_.green);
   const double spread = std::max({deviation[0], deviation[1], deviation[2]});
   // An image that is uniformly green is a field seen from near, not a covered lens.
   if (brightness < parameters_.dark_mean ||
@@ -95,9 +90,10 @@ ImageStatus ImageStatusMonitor::check(
   }
   if (may_be_frozen && spread >= parameters_.uniform_deviation) return ImageStatus::kFrozen;
   // There is field above and none below: the camera hangs upside down.
-  if (horizon && *horizon < bgr.rows / 3.0) return ImageStatus::kOk;
-  const double upper = green_fraction(small, 0, kHeight / 3, parameters_.green);
-  const double lower = green_fraction(small, kHeight - kHeight / 3, kHeight, parameters_.green);
+  if (horizon && *horizon < image.full().rows / 3.0) return ImageStatus::kOk;
+  const double upper = green_fraction(small, 0, small.rows / 3, parameters_.green);
+  const double lower =
+      green_fraction(small, small.rows - small.rows / 3, small.rows, parameters_.green);
   if (upper > 0.7 && lower < 0.15) return ImageStatus::kInverted;
   return ImageStatus::kOk;
 }

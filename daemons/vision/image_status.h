@@ -8,6 +8,7 @@
 #include <string>
 
 #include "daemons/vision/camera_geometry.h"
+#include "daemons/vision/patch_sampler.h"
 #include "daemons/vision/vision_parameters.h"
 
 namespace nao::vision {
@@ -39,7 +40,7 @@ class ImageStatusMonitor {
    * @param pose_camera_in_heading  See VisionInput; nothing: unknown, and no image is frozen.
    * @param horizon  Its row in the middle of the image, pixels, for a camera that hangs as it
    *   should; nothing: unknown. */
-  ImageStatus check(const cv::Mat& bgr, const std::string& camera, int64_t utime,
+  ImageStatus check(const PatchSampler& image, const std::string& camera, int64_t utime,
                     const std::optional<Eigen::Isometry3d>& pose_camera_in_heading,
                     const std::optional<double>& horizon = std::nullopt);
 

@@ -30,22 +30,33 @@ struct Line {
   }
 };
 
-float extent(const LinePoint& point) {
-  return static_cast<float>(cv::norm(point.last - point.first));
-}
-
-/** Indices of the longest run of inliers without a gap, in order along the line. */
-// Inliers of a line, sorted along it; the longest stretch without a gap is one segment.
-std::vector<int> longest_run(const Line& line, const std::vector<LinePoint>& points,
-                             const std::vector<cv::Point2f>& ideal,
-                             const VisionParameters::LineDetector& parameters) {
+/** Distance from a line within which each point belongs to it, pixels. */
+std::vector<float> tolerances_of(const std::vector<LinePoint>& points,
+                                 const VisionParameters::LineDetector& parameters) {
   const auto least = static_cast<float>(parameters.tolerance);
   const auto of_width = static_cast<float>(parameters.tolerance_of_width);
-  const auto largest_gap = static_cast<float>(parameters.largest_gap);
+  std::vector<float> tolerances;
+  tolerances.reserve(points.size());
+  for (const LinePoint& point : points) {
+    const auto extent = static_cast<float>(cv::norm(point.last - point.first));
+    tolerances.push_back(least + of_width * std::min(extent, 40.0f));
+  }
+  return tolerances;
+}
+
+/** Indices of the longest run of inliers without a gap, in order along the line.
+ * @param least_count  Nothing is returned if there are fewer inliers: most samples of RANSAC. */
+// Inliers of a line, sorted along it; the longest stretch without a gap is one segment.
+std::vector<int> longest_run(const Line& line, const std::vector<cv::Point2f>& ideal,
+                             const std::vector<float>& tolerances, float largest_gap,
+                             size_t least_count) {
+  size_t count = 0;
+  for (size_t i = 0; i < ideal.size(); ++i) count += line.distance(ideal[i]) <= tolerances[i];
+  if (count < least_count) return {};
   std::vector<std::pair<float, int>> inliers;
+  inliers.reserve(count);
   for (size_t i = 0; i < ideal.size(); ++i) {
-    const float tolerance = least + of_width * std::min(extent(points[i]), 40.0f);
-    if (line.distance(ideal[i]) > tolerance) continue;
+    if (line.distance(ideal[i]) > tolerances[i]) continue;
     inliers.push_back({line.along(ideal[i]), static_cast<int>(i)});
   }
   std::sort(inliers.begin(), inliers.end());
@@ -134,6 +145,8 @@ std::vector<LineSegment> LineDetector::detect(std::vector<LinePoint>& points,
   std::vector<LineSegment> segments;
   std::vector<LinePoint> rejected;
   std::vector<cv::Point2f> rejected_ideal;
+  std::vector<float> tolerances = tolerances_of(points, parameters_);
+  const auto largest_gap = static_cast<float>(parameters_.largest_gap);
   // Sequential RANSAC with a fixed seed: one segment in each round, whose points are then removed.
   Random random(1);
   for (int round = 0; round < kMostSegments && points.size() >= kLeastLinePoints; ++round) {
@@ -145,13 +158,14 @@ std::vector<LineSegment> LineDetector::detect(std::vector<LinePoint>& points,
       const auto base = static_cast<float>(cv::norm(step));
       // Two near points give no direction, and two distant ones rarely belong to one line.
       if (base < kLeastBase || base > kMostBase) continue;
-      std::vector<int> run = longest_run({ideal[i], step * (1 / base)}, points, ideal, parameters_);
+      std::vector<int> run = longest_run({ideal[i], step * (1 / base)}, ideal, tolerances,
+                                         largest_gap, best.size() + 1);
       if (run.size() > best.size()) best = std::move(run);
     }
     if (best.size() < kLeastLinePoints) break;
     const Line line = fit(best, ideal);
     // The inliers of the fitted line are kept only if no points were lost.
-    std::vector<int> run = longest_run(line, points, ideal, parameters_);
+    std::vector<int> run = longest_run(line, ideal, tolerances, largest_gap, best.size());
     if (run.size() < best.size()) run = best;
     const float first = line.along(ideal[run.front()]);
     const float last = line.along(ideal[run.back()]);
@@ -171,6 +185,7 @@ std::vector<LineSegment> LineDetector::detect(std::vector<LinePoint>& points,
         rejected_ideal.push_back(ideal[i]);
       }
       points.erase(points.begin() + i);
+      tolerances.erase(tolerances.begin() + i);
       ideal.erase(ideal.begin() + i);
     }
   }

@@ -29,6 +29,9 @@ class Scan {
         drop_(static_cast<float>(parameters.drop)),
         start_(start),
         step_(step),
+        pixels_(view.smooth.ptr(start.y, start.x)),
+        pixel_step_(static_cast<std::ptrdiff_t>(step.y * view.smooth.step[0] +
+                                                step.x * view.smooth.step[1])),
         length_(length),
         points_(points) {}
 
@@ -54,7 +57,8 @@ class Scan {
       } else if (index > view_.threshold) {
         num_mixed_ = 0;
         // The first pixels form a plain mean, later ones an exponential one.
-        const float weight = num_green_ == 0 ? 1 : std::max(kWeight, 1.0f / (num_green_ + 1.0f));
+        const float weight =
+            num_green_ < 1 / kWeight - 1 ? 1.0f / static_cast<float>(num_green_ + 1) : kWeight;
         level_ += weight * (white - level_);
         level_index_ += weight * (index - level_index_);
         ++num_green_;
@@ -65,7 +69,9 @@ class Scan {
   }
 
  private:
-  const cv::Vec3b& at(int i) const { return view_.smooth(start_ + i * step_); }
+  const cv::Vec3b& at(int i) const {
+    return *reinterpret_cast<const cv::Vec3b*>(pixels_ + i * pixel_step_);
+  }
 
   float least_drop() const { return std::max(contrast_, drop_ * (peak_ - level_)); }
 
@@ -128,6 +134,9 @@ class Scan {
   float drop_;
   cv::Point start_;
   cv::Point step_;
+  /** The first pixel, and the distance between two, bytes. */
+  const uint8_t* pixels_;
+  std::ptrdiff_t pixel_step_;
   int length_;
   std::vector<LinePoint>& points_;
   /** Mean whiteness and green index of the field before this pixel. */

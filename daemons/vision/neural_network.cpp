@@ -1,6 +1,6 @@
 #include "daemons/vision/neural_network.h"
 
-#include <array>
+#include <algorithm>
 #include <cmath>
 
 #include "common/error.h"
@@ -11,62 +11,72 @@ namespace {
 /** Added to the standard deviation, levels of 255: a uniform image stays near 0. */
 constexpr double kLeastDeviation = 4;
 
-/** Writes an image as 3 planes with mean 0 and deviation 1. */
-void normalize(const cv::Mat& image, float* target) {
-  cv::Scalar means;
-  cv::Scalar deviations;
-  cv::meanStdDev(image, means, deviations);
-  double mean = 0;
-  double mean_square = 0;
-  for (int color = 0; color < 3; ++color) {
-    mean += means[color] / 3;
-    mean_square += (means[color] * means[color] + deviations[color] * deviations[color]) / 3;
+LayerGraph load(const std::filesystem::path& file, const cv::Size& input) {
+  if (!std::filesystem::is_regular_file(file)) {
+    throw Error("the network " + file.string() + " is missing; build or install the project again");
   }
+  try {
+    return {file, input.height, input.width};
+  } catch (const Error& error) {
+    throw Error("the network " + file.string() +
+                " cannot be read; build or install the project again: " + error.what());
+  }
+}
+
+/** Writes an image with mean 0 and deviation 1. */
+void normalize(const cv::Mat& image, Activations& target) {
+  const int row_size = 3 * image.cols;
+  int64_t sum = 0;
+  int64_t sum_of_squares = 0;
+  for (int y = 0; y < image.rows; ++y) {
+    const uint8_t* row = image.ptr(y);
+    // Rows are short enough for 32 bits.
+    uint32_t row_sum = 0;
+    uint32_t row_squares = 0;
+    for (int i = 0; i < row_size; ++i) {
+      row_sum += row[i];
+      row_squares += static_cast<uint32_t>(row[i]) * row[i];
+    }
+    sum += row_sum;
+    sum_of_squares += row_squares;
+  }
+  const auto count = static_cast<double>(image.rows) * row_size;
+  const double mean = static_cast<double>(sum) / count;
+  const double mean_square = static_cast<double>(sum_of_squares) / count;
   const double deviation = std::sqrt(std::max(0.0, mean_square - mean * mean));
-  const double scale = 1 / (deviation + kLeastDeviation);
-  std::array<cv::Mat, 3> planes;
-  cv::split(image, planes.data());
-  for (const cv::Mat& plane : planes) {
-    cv::Mat out(image.rows, image.cols, CV_32F, target);
-    plane.convertTo(out, CV_32F, scale, -mean * scale);
-    target += image.total();
+  const auto scale = static_cast<float>(1 / (deviation + kLeastDeviation));
+  const float offset = -static_cast<float>(mean) * scale;
+  for (int y = 0; y < image.rows; ++y) {
+    const uint8_t* row = image.ptr(y);
+    float* out = target.at(y, 0);
+    for (int i = 0; i < row_size; ++i) out[i] = static_cast<float>(row[i]) * scale + offset;
   }
 }
 
 }  // namespace
 
 NeuralNetwork::NeuralNetwork(const std::filesystem::path& file, const Shape& shape)
-    : file_(file), shape_(shape) {
-  if (!std::filesystem::is_regular_file(file)) {
-    throw Error("the network " + file.string() + " is missing; build or install the project again");
-  }
-  try {
-    net_ = cv::dnn::readNetFromONNX(file.string());
-    net_.setPreferableBackend(cv::dnn::DNN_BACKEND_OPENCV);
-    net_.setPreferableTarget(cv::dnn::DNN_TARGET_CPU);
-    run({cv::Mat::zeros(shape.input, CV_8UC3)});
-  } catch (const cv::Exception& error) {
-    throw Error("the network " + file.string() +
-                " cannot be read; build or install the project again: " + error.err);
+    : shape_(shape), layers_(load(file, shape.input)) {
+  if (layers_.num_outputs() != shape.num_outputs || layers_.output_rows() != shape.output.height ||
+      layers_.output_columns() != shape.output.width) {
+    throw Error("the network " + file.string() + " has " + std::to_string(layers_.num_outputs()) +
+                " outputs for " + std::to_string(layers_.output_columns()) + "x" +
+                std::to_string(layers_.output_rows()) + " places where " +
+                std::to_string(shape.num_outputs) + " for " + std::to_string(shape.output.width) +
+                "x" + std::to_string(shape.output.height) +
+                " are needed; build or install the project again");
   }
 }
 
 cv::Mat_<float> NeuralNetwork::run(const std::vector<cv::Mat>& images) {
-  const int num_numbers = shape_.num_outputs * shape_.output.area();
-  const int count = static_cast<int>(images.size());
-  if (count == 0) return cv::Mat_<float>(0, num_numbers);
-  const std::array<int, 4> sizes = {count, 3, shape_.input.height, shape_.input.width};
-  cv::Mat input(4, sizes.data(), CV_32F);
-  for (int i = 0; i < count; ++i) normalize(images[i], input.ptr<float>(i));
-  net_.setInput(input);
-  const cv::Mat output = net_.forward();
-  if (output.type() != CV_32F ||
-      output.total() != static_cast<size_t>(count) * static_cast<size_t>(num_numbers)) {
-    throw Error("the network " + file_.string() + " has " +
-                std::to_string(output.total() / images.size()) + " outputs where " +
-                std::to_string(num_numbers) + " are needed; build or install the project again");
+  cv::Mat_<float> outputs(static_cast<int>(images.size()),
+                          shape_.num_outputs * shape_.output.area());
+  for (int i = 0; i < outputs.rows; ++i) {
+    normalize(images[static_cast<size_t>(i)], layers_.image());
+    layers_.run();
+    layers_.copy_output(outputs[i]);
   }
-  return output.reshape(1, count).clone();
+  return outputs;
 }
 
 }  // namespace nao::vision

@@ -2,13 +2,13 @@
 
 #include <filesystem>
 #include <opencv2/core.hpp>
-#include <opencv2/dnn.hpp>
 #include <vector>
+
+#include "daemons/vision/layer_graph.h"
 
 namespace nao::vision {
 
-/** A small convolutional network that judges images of one size; run by OpenCV on one image or on
- * several at once.
+/** A small convolutional network that judges images of one size.
  *
  * Each image is shifted and scaled to mean 0 and standard deviation 1 over its pixels and colors,
  * so that the exposure does not matter. The networks are trained by tools/vision-train. */
@@ -26,16 +26,15 @@ class NeuralNetwork {
    * @throws Error  if it cannot be read, or is not such a network. */
   NeuralNetwork(const std::filesystem::path& file, const Shape& shape);
 
-  /** @param images  Images of the input's size, 8 bits a color, blue first.
+  /** @param images  Images of the input's size, 8 bits a color, blue first; one after the other.
    * @return A row for each image: one plane of the output's size after the other. */
   cv::Mat_<float> run(const std::vector<cv::Mat>& images);
 
   const Shape& shape() const { return shape_; }
 
  private:
-  std::filesystem::path file_;
   Shape shape_;
-  cv::dnn::Net net_;
+  LayerGraph layers_;
 };
 
 }  // namespace nao::vision

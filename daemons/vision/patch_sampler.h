@@ -26,8 +26,12 @@ class PatchSampler {
   /** @param bgr  8 bits a color, blue first; must not change while this is used. */
   explicit PatchSampler(const cv::Mat& bgr);
 
+  /** The image. */
+  const cv::Mat& full() const { return levels_.front(); }
   /** The image at half of its size. */
   const cv::Mat& half() const { return levels_[1]; }
+  /** The image at an eighth of its size: enough for statistics of all of it. */
+  const cv::Mat& eighth() const { return levels_[3]; }
 
   /** @param half_width  Half width of the patch in the image, pixels. What lies outside of the
    * image is black.

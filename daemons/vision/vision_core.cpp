@@ -1,5 +1,7 @@
 #include "daemons/vision/vision_core.h"
 
+#include <malloc.h>
+
 #include <algorithm>
 
 #include "common/data_path.h"
@@ -13,6 +15,8 @@ namespace {
 
 /** Least fraction of field in an image for objects to be detected on it. */
 constexpr double kLeastField = 0.03;
+/** Free memory that is kept, bytes: more than an image of 1280x960 needs, about 12 MB. */
+constexpr int kKeptMemory = 16 << 20;
 
 bool is_in(const Eigen::Vector4d& box, const cv::Point2f& pixel) {
   return pixel.x > box[0] && pixel.x < box[2] && pixel.y > box[1] && pixel.y < box[3];
@@ -42,6 +46,12 @@ const char* kind_name(Kind kind) {
       return "penalty-mark";
   }
   return "";
+}
+
+void configure_process() {
+  cv::setNumThreads(1);
+  mallopt(M_MMAP_THRESHOLD, kKeptMemory);
+  mallopt(M_TRIM_THRESHOLD, kKeptMemory);
 }
 
 VisionNetworks VisionNetworks::load() {
@@ -115,8 +125,9 @@ VisionResult VisionCore::process(const VisionInput& input) {
   }
   VisionResult result;
   const CameraGeometry geometry(input.calibration, input.pose_camera_in_heading);
+  const PatchSampler sampler(input.bgr);
   result.image_status =
-      status_.check(input.bgr, input.camera, input.utime, input.pose_camera_in_heading,
+      status_.check(sampler, input.camera, input.utime, input.pose_camera_in_heading,
                     geometry.horizon_row(0.5 * input.bgr.cols));
   finish_stage("image status");
   // The filter predicts in every image, so that the ball's estimate ages even while it is not seen.
@@ -132,7 +143,6 @@ VisionResult VisionCore::process(const VisionInput& input) {
   finish_stage("field");
   // The robot looks up or over the border, so that apparent objects there are false.
   if (view.fraction < kLeastField) return result;
-  const PatchSampler sampler(input.bgr);
   FoundObjects objects = objects_.detect(sampler.half(), input.bgr.cols, input.bgr.rows, geometry);
   finish_stage("objects");
   std::vector<Circle>& places = objects.balls;

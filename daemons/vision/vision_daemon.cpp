@@ -46,6 +46,7 @@ VisionDaemon::VisionDaemon(Bus& bus, const RobotModel& model, const VisionOption
       commands_(bus, channels_),
       poses_(model),
       core_(VisionNetworks::load(), VisionParameters::load(model.folder() / "vision.yaml")) {
+  configure_process();
   if (options_.field_start) {
     core_.localize(options_.field_start->first, options_.field_start->second);
   }

@@ -93,8 +93,7 @@ int evaluate(const EvalOptions& options) {
   if (!options.drawing_folder.empty()) {
     std::filesystem::create_directories(options.drawing_folder);
   }
-  // All stages run on one core, as in nao-vision on a robot.
-  cv::setNumThreads(1);
+  nao::vision::configure_process();
   const auto networks = nao::vision::VisionNetworks::load();
   StageTimes times;
   nao::vision::Scores scores;

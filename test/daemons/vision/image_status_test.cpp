@@ -17,7 +17,7 @@ VisionInput scene() {
 
 TEST(ImageStatus, FieldIsOk) {
   ImageStatusMonitor monitor;
-  EXPECT_EQ(monitor.check(scene().bgr, "top", 0, std::nullopt), ImageStatus::kOk);
+  EXPECT_EQ(monitor.check(PatchSampler(scene().bgr), "top", 0, std::nullopt), ImageStatus::kOk);
 }
 
 TEST(ImageStatus, CoveredLensIsReportedWithoutDetections) {
@@ -44,7 +44,7 @@ TEST(ImageStatus, InvertedImageIsReported) {
   VisionInput input = field.input();
   cv::flip(input.bgr, input.bgr, -1);
   ImageStatusMonitor monitor;
-  EXPECT_EQ(monitor.check(input.bgr, "top", 0, std::nullopt), ImageStatus::kInverted);
+  EXPECT_EQ(monitor.check(PatchSampler(input.bgr), "top", 0, std::nullopt), ImageStatus::kInverted);
 }
 
 TEST(ImageStatus, ACameraThatLooksDownOnTheRobotsBodyIsNotInverted) {
@@ -69,13 +69,14 @@ Eigen::Isometry3d turned(double angle) {
 TEST(ImageStatus, EqualImagesOfAMovingCameraAreFrozen) {
   const VisionInput input = scene();
   ImageStatusMonitor monitor;
-  EXPECT_EQ(monitor.check(input.bgr, "top", 0, turned(0)), ImageStatus::kOk);
-  EXPECT_EQ(monitor.check(input.bgr, "top", 200000, turned(0.1)), ImageStatus::kOk);
-  EXPECT_EQ(monitor.check(input.bgr, "top", 400000, turned(0.2)), ImageStatus::kFrozen);
+  EXPECT_EQ(monitor.check(PatchSampler(input.bgr), "top", 0, turned(0)), ImageStatus::kOk);
+  EXPECT_EQ(monitor.check(PatchSampler(input.bgr), "top", 200000, turned(0.1)), ImageStatus::kOk);
+  EXPECT_EQ(monitor.check(PatchSampler(input.bgr), "top", 400000, turned(0.2)),
+            ImageStatus::kFrozen);
   // One pixel that differs is the image of a working camera.
   cv::Mat other = input.bgr.clone();
   other.at<cv::Vec3b>(100, 100)[1] ^= 1;
-  EXPECT_EQ(monitor.check(other, "top", 600000, turned(0.3)), ImageStatus::kOk);
+  EXPECT_EQ(monitor.check(PatchSampler(other), "top", 600000, turned(0.3)), ImageStatus::kOk);
 }
 
 TEST(ImageStatus, EqualImagesOfACameraThatSwaysByLessThanAnImageShowsAreOk) {
@@ -83,7 +84,8 @@ TEST(ImageStatus, EqualImagesOfACameraThatSwaysByLessThanAnImageShowsAreOk) {
   ImageStatusMonitor monitor;
   for (int i = 0; i < 20; ++i) {
     // 0.1 rad/s at the most, 0.002 rad in all.
-    EXPECT_EQ(monitor.check(input.bgr, "top", 100000 * i, turned(i % 2 == 0 ? 0.001 : -0.001)),
+    EXPECT_EQ(monitor.check(PatchSampler(input.bgr), "top", 100000 * i,
+                            turned(i % 2 == 0 ? 0.001 : -0.001)),
               ImageStatus::kOk);
   }
 }
@@ -92,7 +94,8 @@ TEST(ImageStatus, OfACarpetThatFillsTheImageNothingFollows) {
   const cv::Mat carpet(480, 640, CV_8UC3, cv::Scalar(60, 130, 60));
   ImageStatusMonitor monitor;
   for (int i = 0; i < 20; ++i) {
-    EXPECT_EQ(monitor.check(carpet, "bottom", 100000 * i, turned(0.1 * i)), ImageStatus::kOk);
+    EXPECT_EQ(monitor.check(PatchSampler(carpet), "bottom", 100000 * i, turned(0.1 * i)),
+              ImageStatus::kOk);
   }
 }
 

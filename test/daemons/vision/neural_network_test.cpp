@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <opencv2/dnn.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "common/data_path.h"
@@ -46,6 +47,35 @@ std::string damaged(const std::string& name, size_t size, size_t total) {
   return bytes;
 }
 
+/** What OpenCV computes by a network for one image, in the order of NeuralNetwork's output. */
+cv::Mat_<float> run_by_opencv(const std::string& name, const cv::Mat& image) {
+  cv::Mat numbers;
+  image.convertTo(numbers, CV_32F);
+  cv::Scalar mean;
+  cv::Scalar deviation;
+  cv::meanStdDev(numbers.reshape(1), mean, deviation);
+  cv::dnn::Net net = cv::dnn::readNetFromONNX(network_file(name).string());
+  net.setInput(cv::dnn::blobFromImage(cv::Mat(numbers.reshape(1) - mean[0]).reshape(3),
+                                      1 / (deviation[0] + 4)));
+  return net.forward().reshape(1, 1).clone();
+}
+
+TEST(NeuralNetwork, GivesTheNumbersOfOpenCv) {
+  const cv::Mat patch = random_patches(1).front();
+  for (const auto& [name, shape] : {std::pair{"ball.onnx", BallDetector::shape()},
+                                    std::pair{"colored_ball.onnx", BallDetector::shape()},
+                                    std::pair{"objects.onnx", ObjectDetector::shape()}}) {
+    cv::Mat image;
+    cv::resize(patch, image, shape.input);
+    const cv::Mat_<float> expected = run_by_opencv(name, image);
+    const cv::Mat_<float> output = NeuralNetwork(network_file(name), shape).run({image});
+    ASSERT_EQ(output.total(), expected.total()) << name;
+    EXPECT_GT(cv::norm(expected, cv::NORM_INF), 1) << name;
+    // Sums of some hundred products in another order, in each of ten layers.
+    EXPECT_LT(cv::norm(output, expected, cv::NORM_INF), 1e-4) << name;
+  }
+}
+
 TEST(NeuralNetwork, JudgesSeveralPatchesAsEachAlone) {
   NeuralNetwork network(network_file("ball.onnx"), BallDetector::shape());
   const std::vector<cv::Mat> patches = random_patches(7);
@@ -55,7 +85,7 @@ TEST(NeuralNetwork, JudgesSeveralPatchesAsEachAlone) {
   for (int i = 0; i < 7; ++i) {
     const cv::Mat_<float> alone = network.run({patches[static_cast<size_t>(i)]});
     for (int k = 0; k < BallDetector::kNumOutputs; ++k) {
-      EXPECT_NEAR(together(i, k), alone(0, k), 1e-4);
+      EXPECT_EQ(together(i, k), alone(0, k));
     }
   }
 }
@@ -100,6 +130,17 @@ TEST(NeuralNetwork, RefusesBrokenFiles) {
   EXPECT_THAT(load(file), ThrowsMessage<Error>(HasSubstr("damaged.onnx")));
   write_text(file, damaged("ball.onnx", 100, 100000));
   EXPECT_THAT(load(file), ThrowsMessage<Error>(HasSubstr("damaged.onnx")));
+}
+
+TEST(NeuralNetwork, RefusesLayersThatItDoesNotKnow) {
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "tanh.onnx";
+  std::string bytes = read_text(network_file("ball.onnx"));
+  // The kind (field 4, 4 bytes) of the second layer; the same length, so that the file stays whole.
+  bytes.replace(bytes.find("\x22\x04Relu") + 2, 4, "Tanh");
+  write_text(file, bytes);
+  EXPECT_THAT([&] { NeuralNetwork network(file, BallDetector::shape()); },
+              ThrowsMessage<Error>(HasSubstr("(Tanh) is of an unknown kind")));
 }
 
 TEST(NeuralNetwork, RefusesAnotherNetwork) {
