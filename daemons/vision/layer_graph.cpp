@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <fstream>
 #include <limits>
 #include <utility>
 
@@ -56,10 +55,9 @@ std::vector<float> numbers_of(const onnx::Node& node, const onnx::Tensor& tensor
 
 }  // namespace
 
-LayerGraph::LayerGraph(const std::filesystem::path& file, int rows, int columns) {
+LayerGraph::LayerGraph(std::istream& file, int rows, int columns) {
   onnx::Model model;
-  std::ifstream stream(file, std::ios::binary);
-  if (!model.ParseFromIstream(&stream)) throw Error("the file is damaged");
+  if (!model.ParseFromIstream(&file)) throw Error("the file is damaged");
   const onnx::Graph& graph = model.graph();
   if (graph.input_size() != 1 || graph.output_size() != 1) {
     throw Error("it has not one input and one output");

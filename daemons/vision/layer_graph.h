@@ -1,6 +1,6 @@
 #pragma once
 
-#include <filesystem>
+#include <istream>
 #include <map>
 #include <memory>
 #include <string>
@@ -22,9 +22,9 @@ class Tensor;
  * and "Concat" of channels at the end. */
 class LayerGraph {
  public:
-  /** @param rows, columns  Of the image. @throws Error  if the file cannot be read, is damaged, or
-   * has other layers. */
-  LayerGraph(const std::filesystem::path& file, int rows, int columns);
+  /** @param rows, columns  Of the image. @throws Error  if the file is damaged, or has other
+   * layers. */
+  LayerGraph(std::istream& file, int rows, int columns);
 
   /** Where the caller writes the image, 3 channels. */
   Activations& image() { return values_.front(); }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 
 #include "common/error.h"
 
@@ -16,7 +17,8 @@ LayerGraph load(const std::filesystem::path& file, const cv::Size& input) {
     throw Error("the network " + file.string() + " is missing; build or install the project again");
   }
   try {
-    return {file, input.height, input.width};
+    std::ifstream stream(file, std::ios::binary);
+    return {stream, input.height, input.width};
   } catch (const Error& error) {
     throw Error("the network " + file.string() +
                 " cannot be read; build or install the project again: " + error.what());
