@@ -30,11 +30,13 @@ const kFieldOfViewDeg = 32;
 const kMinPixelRatio = 0.75;
 const kSoftwarePixelRatio = 0.75;
 const kMinSoftwarePixelRatio = 0.5;
-/** Time between two frames at the least where a processor draws, ms: two of the screen's, 30 a second. More would take what
+/** Time between two frames, s: of a screen, where a processor draws, and where that is too much. More would take what
  * simulates the robot, perhaps on the same processor. */
-const kSoftwareFramePeriodMs = 30;
-/** The same where that is too much. */
-const kSlowFramePeriodMs = 50;
+const kFramePeriod = 1 / 60;
+const kSoftwareFramePeriod = 1 / 30;
+const kSlowFramePeriod = 1 / 20;
+/** An animation frame is requested so long before it is due, s: half of the screen's period. */
+const kFrameLead = 1 / 120;
 /** Where a processor draws, what stands still for so long, ms, is drawn once more with so many pixels: smooth edges. */
 const kRestMs = 500;
 const kRestPixelRatio = 1.5;
@@ -75,12 +77,13 @@ export class Stage {
   readonly robotAxes = new Group();
   private readonly sun = new DirectionalLight(0xfff2e0, 2.6);
   private readonly budget: PixelBudget;
-  private readonly framePeriodMs: number;
+  private readonly isSoftware: boolean;
   /** The robot that is shown; null before the first. Only read by others, as its height, m. */
   robot: RobotTree | null = null;
   robotHeight = kUnknownHeight;
   private lastFrameMs = 0;
   private isRunning = false;
+  private isFrameRequested = false;
   private drawnMs = -Infinity;
   private isOutdated = true;
   private isChanging = false;
@@ -96,11 +99,11 @@ export class Stage {
 
   constructor(readonly canvas: HTMLCanvasElement) {
     const {gl, isSoftware} = openDrawingContext(canvas);
+    this.isSoftware = isSoftware;
     this.renderer = new WebGLRenderer({canvas, context: gl, alpha: true});
     this.surface = new RobotSurface(isSoftware);
-    this.framePeriodMs = isSoftware ? kSoftwareFramePeriodMs : 0;
-    this.budget = isSoftware ? new PixelBudget(kSoftwarePixelRatio, false, kMinSoftwarePixelRatio)
-        : new PixelBudget(Math.min(window.devicePixelRatio, 2), true, kMinPixelRatio);
+    this.budget = isSoftware ? new PixelBudget(kSoftwarePixelRatio, kMinSoftwarePixelRatio)
+        : new PixelBudget(Math.min(window.devicePixelRatio, 2), kMinPixelRatio);
     this.renderer.toneMapping = ACESFilmicToneMapping;
     this.renderer.shadowMap.enabled = true;
     this.renderer.shadowMap.type = PCFShadowMap;
@@ -129,7 +132,7 @@ export class Stage {
     if (this.isRunning) return;
     this.isRunning = true;
     this.lastFrameMs = performance.now();
-    requestAnimationFrame(this.frame);
+    if (!this.isFrameRequested) this.requestFrame();
   }
 
   stop(): void {
@@ -145,12 +148,25 @@ export class Stage {
   }
 
   private readonly frame = (nowMs: number): void => {
+    this.isFrameRequested = false;
     if (!this.isRunning) return;
-    requestAnimationFrame(this.frame);
+    this.requestFrame();
     // Drawn already, by wake(): once more would hold it up.
     if (!this.isAhead) this.advance(nowMs, 0);
     this.isAhead = false;
   };
+
+  /** s. */
+  private get framePeriod(): number {
+    return !this.isSoftware ? kFramePeriod : this.budget.isLeast ? kSlowFramePeriod : kSoftwareFramePeriod;
+  }
+
+  /** A browser without a graphics chip has work with each animation frame, drawn or not. */
+  private requestFrame(): void {
+    this.isFrameRequested = true;
+    if (!this.isSoftware) requestAnimationFrame(this.frame);
+    else setTimeout(() => requestAnimationFrame(this.frame), 1000 * (this.framePeriod - kFrameLead));
+  }
 
   /** One frame. @param leastTime  it counts as at least so long, s. */
   private advance(nowMs: number, leastTime: number): void {
@@ -159,12 +175,12 @@ export class Stage {
     const hasMoved = this.onFrame(dt);
     this.followRobot(dt);
     // The pause before a movement says nothing about how long a frame takes.
-    if (this.isChanging && this.budget.frame(dt)) this.resize();
+    if (this.isChanging && this.budget.frame(dt, this.framePeriod)) this.resize();
     this.isOutdated ||= hasMoved || this.hasEyeMoved();
     this.isChanging = this.isOutdated;
-    const period = this.framePeriodMs > 0 && this.budget.isExhausted ? kSlowFramePeriodMs : this.framePeriodMs;
-    if (this.isOutdated && nowMs - this.drawnMs >= period) this.draw(nowMs);
-    else if (this.framePeriodMs > 0 && !this.isSharp && nowMs - this.drawnMs > kRestMs) this.draw(nowMs, true);
+    const isDue = !this.isSoftware || nowMs - this.drawnMs >= 1000 * (this.framePeriod - kFrameLead);
+    if (this.isOutdated && isDue) this.draw(nowMs);
+    else if (this.isSoftware && !this.isSharp && nowMs - this.drawnMs > kRestMs) this.draw(nowMs, true);
   }
 
   /** @param isSharp  with the pixels of what stands still. */
@@ -229,8 +245,9 @@ export class Stage {
     this.isSharp = false;
     this.renderer.setPixelRatio(this.budget.pixelRatio);
     this.renderer.setSize(this.width, this.height, false);
-    this.renderer.shadowMap.enabled = this.sun.castShadow = this.budget.hasShadow;
-    this.floor.setShadow(this.budget.hasShadow);
+    const hasShadow = !this.isSoftware && !this.budget.isLeast;
+    this.renderer.shadowMap.enabled = this.sun.castShadow = hasShadow;
+    this.floor.setShadow(hasShadow);
     this.camera.aspect = this.width / this.height;
     // The canvas is empty now.
     this.drawnMs = -Infinity;
