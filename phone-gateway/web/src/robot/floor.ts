@@ -74,6 +74,7 @@ const kFragmentShader = `
     color *= 1.0 - 0.45 * exp(-d * d * contact);
     gl_FragColor = vec4(color, fade);
     #include <colorspace_fragment>
+    gl_FragColor.rgb *= fade;
   }`;
 
 export class Floor {
@@ -101,8 +102,9 @@ export class Floor {
   constructor() {
     const plane = new CircleGeometry(kVisibleRadius, 64).rotateX(-Math.PI / 2);
     const ground = new Mesh(plane, new ShaderMaterial({
-      vertexShader: kVertexShader, fragmentShader: kFragmentShader, transparent: true, depthWrite: false, uniforms: this.uniforms}));
-    ground.renderOrder = -2;
+      vertexShader: kVertexShader, fragmentShader: kFragmentShader, depthWrite: false, uniforms: this.uniforms}));
+    // After what is opaque, over nothing: without blending, which costs a processor more than the lines.
+    ground.renderOrder = 1;
     const {shadow} = this;
     shadow.geometry = plane;
     shadow.receiveShadow = true;

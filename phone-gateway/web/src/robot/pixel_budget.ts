@@ -1,8 +1,8 @@
 /** Keeps a slow phone fluent: when frames take too long it draws fewer pixels, then the least. After a time without slow frames
  * it tries one step back up; each trial that fails doubles that time, so that the image does not pump. Pure. */
 
-/** A frame is slow that takes longer than so many times its period. */
-const kSlowFrame = 1.4;
+/** A frame longer than this is slow, s: below 40 frames a second. */
+const kSlowFrame = 0.025;
 /** Share of slow frames in a window at which quality goes one step down, and up to which it may go up. */
 const kTooManySlow = 0.5;
 const kFewSlow = 0.1;
@@ -42,13 +42,12 @@ export class PixelBudget {
     return this.level > this.numRatioSteps;
   }
 
-  /** Counts a frame. @param dt  time since the last one, s. @param period  which that shall be, s.
-   * @return true if the quality has changed. */
-  frame(dt: number, period: number): boolean {
+  /** Counts a frame. @param dt s. @return true if the quality has changed. */
+  frame(dt: number): boolean {
     this.numFrames++;
     if (this.numFrames <= 0) return false;
     this.time += dt;
-    if (dt > kSlowFrame * period) this.numSlow++;
+    if (dt > kSlowFrame) this.numSlow++;
     if (this.numFrames < kWindowFrames || this.time < kWindow) return false;
     const {level} = this;
     const slow = this.numSlow / this.numFrames;

@@ -30,13 +30,11 @@ const kFieldOfViewDeg = 32;
 const kMinPixelRatio = 0.75;
 const kSoftwarePixelRatio = 0.75;
 const kMinSoftwarePixelRatio = 0.5;
-/** Time between two frames, s: of a screen, where a processor draws, and where that is too much. More would take what
+/** Time between two frames at the least where a processor draws, ms: two of the screen's, 30 a second. More would take what
  * simulates the robot, perhaps on the same processor. */
-const kFramePeriod = 1 / 60;
-const kSoftwareFramePeriod = 1 / 30;
-const kSlowFramePeriod = 1 / 20;
-/** An animation frame is requested so long before it is due, s: half of the screen's period. */
-const kFrameLead = 1 / 120;
+const kSoftwareFramePeriodMs = 30;
+/** The same where that is too much. */
+const kSlowFramePeriodMs = 50;
 /** Where a processor draws, what stands still for so long, ms, is drawn once more with so many pixels: smooth edges. */
 const kRestMs = 500;
 const kRestPixelRatio = 1.5;
@@ -77,13 +75,12 @@ export class Stage {
   readonly robotAxes = new Group();
   private readonly sun = new DirectionalLight(0xfff2e0, 2.6);
   private readonly budget: PixelBudget;
-  private readonly isSoftware: boolean;
+  private readonly framePeriodMs: number;
   /** The robot that is shown; null before the first. Only read by others, as its height, m. */
   robot: RobotTree | null = null;
   robotHeight = kUnknownHeight;
   private lastFrameMs = 0;
   private isRunning = false;
-  private isFrameRequested = false;
   private drawnMs = -Infinity;
   private isOutdated = true;
   private isChanging = false;
@@ -99,9 +96,9 @@ export class Stage {
 
   constructor(readonly canvas: HTMLCanvasElement) {
     const {gl, isSoftware} = openDrawingContext(canvas);
-    this.isSoftware = isSoftware;
     this.renderer = new WebGLRenderer({canvas, context: gl, alpha: true});
     this.surface = new RobotSurface(isSoftware);
+    this.framePeriodMs = isSoftware ? kSoftwareFramePeriodMs : 0;
     this.budget = isSoftware ? new PixelBudget(kSoftwarePixelRatio, kMinSoftwarePixelRatio)
         : new PixelBudget(Math.min(window.devicePixelRatio, 2), kMinPixelRatio);
     this.renderer.toneMapping = ACESFilmicToneMapping;
@@ -132,7 +129,7 @@ export class Stage {
     if (this.isRunning) return;
     this.isRunning = true;
     this.lastFrameMs = performance.now();
-    if (!this.isFrameRequested) this.requestFrame();
+    requestAnimationFrame(this.frame);
   }
 
   stop(): void {
@@ -148,25 +145,12 @@ export class Stage {
   }
 
   private readonly frame = (nowMs: number): void => {
-    this.isFrameRequested = false;
     if (!this.isRunning) return;
-    this.requestFrame();
+    requestAnimationFrame(this.frame);
     // Drawn already, by wake(): once more would hold it up.
     if (!this.isAhead) this.advance(nowMs, 0);
     this.isAhead = false;
   };
-
-  /** s. */
-  private get framePeriod(): number {
-    return !this.isSoftware ? kFramePeriod : this.budget.isLeast ? kSlowFramePeriod : kSoftwareFramePeriod;
-  }
-
-  /** A browser without a graphics chip has work with each animation frame, drawn or not. */
-  private requestFrame(): void {
-    this.isFrameRequested = true;
-    if (!this.isSoftware) requestAnimationFrame(this.frame);
-    else setTimeout(() => requestAnimationFrame(this.frame), 1000 * (this.framePeriod - kFrameLead));
-  }
 
   /** One frame. @param leastTime  it counts as at least so long, s. */
   private advance(nowMs: number, leastTime: number): void {
@@ -175,12 +159,12 @@ export class Stage {
     const hasMoved = this.onFrame(dt);
     this.followRobot(dt);
     // The pause before a movement says nothing about how long a frame takes.
-    if (this.isChanging && this.budget.frame(dt, this.framePeriod)) this.resize();
+    if (this.isChanging && this.budget.frame(dt)) this.resize();
     this.isOutdated ||= hasMoved || this.hasEyeMoved();
     this.isChanging = this.isOutdated;
-    const isDue = !this.isSoftware || nowMs - this.drawnMs >= 1000 * (this.framePeriod - kFrameLead);
-    if (this.isOutdated && isDue) this.draw(nowMs);
-    else if (this.isSoftware && !this.isSharp && nowMs - this.drawnMs > kRestMs) this.draw(nowMs, true);
+    const period = this.framePeriodMs > 0 && this.budget.isLeast ? kSlowFramePeriodMs : this.framePeriodMs;
+    if (this.isOutdated && nowMs - this.drawnMs >= period) this.draw(nowMs);
+    else if (this.framePeriodMs > 0 && !this.isSharp && nowMs - this.drawnMs > kRestMs) this.draw(nowMs, true);
   }
 
   /** @param isSharp  with the pixels of what stands still. */
@@ -245,7 +229,7 @@ export class Stage {
     this.isSharp = false;
     this.renderer.setPixelRatio(this.budget.pixelRatio);
     this.renderer.setSize(this.width, this.height, false);
-    const hasShadow = !this.isSoftware && !this.budget.isLeast;
+    const hasShadow = this.framePeriodMs === 0 && !this.budget.isLeast;
     this.renderer.shadowMap.enabled = this.sun.castShadow = hasShadow;
     this.floor.setShadow(hasShadow);
     this.camera.aspect = this.width / this.height;
