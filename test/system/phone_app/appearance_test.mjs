@@ -84,7 +84,7 @@ for (const {name, size: [width, height], options, ...page} of kPasses.filter((pa
 
     const ana = await open(fake.url, "Ana");
     await ana.sees("controller");
-    await until("the postures are drawn", () => ana.page.locator(".postures canvas").count());
+    await until("the postures are drawn", async () => (await ana.page.locator(".postures canvas").count()) > 0);
     await until("an image", async () => (await ana.look("numImages")) > 0);
     await look(ana, "drive");
     await click(ana, ".image-main");
@@ -143,7 +143,7 @@ for (const {name, size: [width, height], options, ...page} of kPasses.filter((pa
     await look(dan, "lobby");
     await click(dan, '[data-robot="NAO"] .robot-drive');
     await dan.sees("controller");
-    await until("the postures are drawn", () => dan.page.locator(".postures canvas").count());
+    await until("the postures are drawn", async () => (await dan.page.locator(".postures canvas").count()) > 0);
     await look(dan, "match");
     await dan.page.route("**/ws", (route) => route.abort());
     await dan.context.setOffline(true);

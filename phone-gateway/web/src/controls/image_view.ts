@@ -1,6 +1,6 @@
 /** The head camera's image. Decodes off the main thread; an image that arrives while the previous one is
  * being decoded is dropped. */
-import {el, icon} from "../dom";
+import {el, icon, setHidden, setText} from "../dom";
 import type {Image} from "../protocol/generated/remote_pb";
 import {say, sayName} from "../text/texts";
 
@@ -96,9 +96,10 @@ export class ImageView {
 
   /** @param ageMs  of the newest image, ms; negative: there is none. */
   showAge(ageMs: number): void {
-    this.age.hidden = ageMs < kShownAgeMs;
-    if (!this.age.hidden) this.age.textContent = say("drive.imageAge", {seconds: (ageMs / 1000).toFixed(1)});
-    this.element.classList.toggle("old", ageMs >= kGreyAgeMs);
+    setHidden(this.age, ageMs < kShownAgeMs);
+    if (!this.age.hidden) setText(this.age, say("drive.imageAge", {seconds: (ageMs / 1000).toFixed(1)}));
+    const isOld = ageMs >= kGreyAgeMs;
+    if (isOld !== this.element.classList.contains("old")) this.element.classList.toggle("old");
   }
 
   private draw(bitmap: ImageBitmap): void {
@@ -109,7 +110,7 @@ export class ImageView {
     this.canvas.getContext("2d")?.drawImage(bitmap, 0, 0);
     bitmap.close();
     this.numImages++;
-    this.element.classList.add("has-image");
+    if (this.numImages === 1) this.element.classList.add("has-image");
   }
 
   private dragStarts(event: PointerEvent): void {

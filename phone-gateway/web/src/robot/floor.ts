@@ -1,7 +1,7 @@
 /** The ground: turf with the lines of the field, fading out around the robot. Lines are computed
  * per pixel, as in the head camera's image, so that they stay sharp without a texture. */
 import {
-  Color, Group, Mesh, MeshBasicMaterial, PlaneGeometry, RingGeometry, ShaderMaterial, ShadowMaterial,
+  CircleGeometry, Color, Group, Mesh, MeshBasicMaterial, PlaneGeometry, RingGeometry, ShaderMaterial, ShadowMaterial,
   Vector2, Vector4,
 } from "three";
 
@@ -67,7 +67,6 @@ const kFragmentShader = `
     // Before any branch: derivatives are taken between neighbours.
     vec2 pixel = fwidth(place) + 1e-6;
     float d = distance(place, centre) / radius;
-    if (d > 1.0) discard;
     float fade = 1.0 - smoothstep(0.3, 1.0, d);
     vec3 color = mix(turf, lines, 0.12 * (1.0 - hasField) * grid(place, pixel));
     if (hasField > 0.5) color = mix(color, lines, 0.9 * fieldLines(place, pixel));
@@ -75,6 +74,7 @@ const kFragmentShader = `
     color *= 1.0 - 0.45 * exp(-d * d * contact);
     gl_FragColor = vec4(color, fade);
     #include <colorspace_fragment>
+    gl_FragColor.rgb *= fade;
   }`;
 
 export class Floor {
@@ -100,11 +100,11 @@ export class Floor {
   private readonly path = new Mesh(new PlaneGeometry(1, kPathWidth).rotateX(-Math.PI / 2), this.marker.material);
 
   constructor() {
-    const plane = new PlaneGeometry(2 * kVisibleRadius, 2 * kVisibleRadius);
-    plane.rotateX(-Math.PI / 2);
+    const plane = new CircleGeometry(kVisibleRadius, 64).rotateX(-Math.PI / 2);
     const ground = new Mesh(plane, new ShaderMaterial({
-      vertexShader: kVertexShader, fragmentShader: kFragmentShader, transparent: true, depthWrite: false, uniforms: this.uniforms}));
-    ground.renderOrder = -2;
+      vertexShader: kVertexShader, fragmentShader: kFragmentShader, depthWrite: false, uniforms: this.uniforms}));
+    // After what is opaque, over nothing: without blending, which costs a processor more than the lines.
+    ground.renderOrder = 1;
     const {shadow} = this;
     shadow.geometry = plane;
     shadow.receiveShadow = true;

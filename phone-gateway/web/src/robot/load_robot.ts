@@ -47,6 +47,9 @@ function place(mesh: Mesh, visual: UrdfVisual): Mesh {
   mesh.position.set(...visual.xyz);
   mesh.quaternion.copy(quaternionFromRpy(visual.rpy));
   mesh.scale.set(...visual.scale);
+  // It does not move in its link.
+  mesh.updateMatrix();
+  mesh.matrixAutoUpdate = false;
   return mesh;
 }
 

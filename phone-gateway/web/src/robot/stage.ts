@@ -99,8 +99,8 @@ export class Stage {
     this.renderer = new WebGLRenderer({canvas, context: gl, alpha: true});
     this.surface = new RobotSurface(isSoftware);
     this.framePeriodMs = isSoftware ? kSoftwareFramePeriodMs : 0;
-    this.budget = isSoftware ? new PixelBudget(kSoftwarePixelRatio, false, kMinSoftwarePixelRatio)
-        : new PixelBudget(Math.min(window.devicePixelRatio, 2), true, kMinPixelRatio);
+    this.budget = isSoftware ? new PixelBudget(kSoftwarePixelRatio, kMinSoftwarePixelRatio)
+        : new PixelBudget(Math.min(window.devicePixelRatio, 2), kMinPixelRatio);
     this.renderer.toneMapping = ACESFilmicToneMapping;
     this.renderer.shadowMap.enabled = true;
     this.renderer.shadowMap.type = PCFShadowMap;
@@ -162,7 +162,7 @@ export class Stage {
     if (this.isChanging && this.budget.frame(dt)) this.resize();
     this.isOutdated ||= hasMoved || this.hasEyeMoved();
     this.isChanging = this.isOutdated;
-    const period = this.framePeriodMs > 0 && this.budget.isExhausted ? kSlowFramePeriodMs : this.framePeriodMs;
+    const period = this.framePeriodMs > 0 && this.budget.isLeast ? kSlowFramePeriodMs : this.framePeriodMs;
     if (this.isOutdated && nowMs - this.drawnMs >= period) this.draw(nowMs);
     else if (this.framePeriodMs > 0 && !this.isSharp && nowMs - this.drawnMs > kRestMs) this.draw(nowMs, true);
   }
@@ -229,8 +229,9 @@ export class Stage {
     this.isSharp = false;
     this.renderer.setPixelRatio(this.budget.pixelRatio);
     this.renderer.setSize(this.width, this.height, false);
-    this.renderer.shadowMap.enabled = this.sun.castShadow = this.budget.hasShadow;
-    this.floor.setShadow(this.budget.hasShadow);
+    const hasShadow = this.framePeriodMs === 0 && !this.budget.isLeast;
+    this.renderer.shadowMap.enabled = this.sun.castShadow = hasShadow;
+    this.floor.setShadow(hasShadow);
     this.camera.aspect = this.width / this.height;
     // The canvas is empty now.
     this.drawnMs = -Infinity;

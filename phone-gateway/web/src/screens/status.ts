@@ -1,7 +1,7 @@
 /** What lies on the views: what the robot does, and who drives it. */
 import type {Commander} from "../commander";
 import {button} from "../controls/press";
-import {el, setText} from "../dom";
+import {el, setHidden, setText} from "../dom";
 import {scoreboard} from "../match/scoreboard";
 import {isByItself, playInWords} from "../play/play_words";
 import {Mode} from "../protocol/generated/remote_pb";
@@ -48,9 +48,9 @@ export class Status {
             modeInWords(state.mode, isByItself(playState)));
     setText(this.activity, isOld ? "" : playInWords(playState) || activityInWords(state?.activity));
     const progress = state?.activity ? state.progress : -1;
-    this.progress.hidden = !(progress >= 0);
+    setHidden(this.progress, !(progress >= 0));
     if (progress >= 0) this.progress.value = progress;
-    this.body.hidden = !state?.body;
+    setHidden(this.body, !state?.body);
     setText(this.battery, batteryInWords(state?.body));
     setText(this.warning, warningsInWords(state?.body, robot).join(" "));
     const mode = state ? nameOf(Mode, state.mode, "no-robot") : "";
