@@ -38,7 +38,7 @@ TEST_F(GatewayStreams, SpreadStatesOverClientsThatSubscribedTogether) {
     core_->robot().set_state(robot, now_);
     num_served.push_back(0);
     for (const Client& client : clients) {
-      while (core_->next_message(client.id, now_)) ++num_served.back();
+      while (core_->next(client.id, true, now_).message) ++num_served.back();
     }
   }
   EXPECT_EQ(num_served.front(), 32) << "the first state is sent to all at once";
@@ -68,16 +68,17 @@ TEST_F(GatewayStreams, AreEncodedOnceForAllClientsWithTheirAge) {
   arrive();
   // A state, then an image.
   for (int i = 0; i < 2; ++i) {
-    const MessageBytes bytes = core_->next_message(one.id, now_);
+    const MessageBytes bytes = core_->next(one.id, true, now_).message;
     ASSERT_TRUE(bytes);
-    EXPECT_EQ(core_->next_message(two.id, now_ + 0.0005), bytes);
+    EXPECT_EQ(core_->next(two.id, true, now_ + 0.0005).message, bytes);
   }
   pass(0.02);
   receive_image(3);
   arrive();
   for (int i = 0; i < 2; ++i) {
-    const double age = age_ms(core_->next_message(one.id, now_));
-    EXPECT_NEAR(age_ms(core_->next_message(two.id, now_ + 0.3)), age + 300, 1) << "encoded again";
+    const double age = age_ms(core_->next(one.id, true, now_).message);
+    EXPECT_NEAR(age_ms(core_->next(two.id, true, now_ + 0.3).message), age + 300, 1)
+        << "encoded again";
   }
 }
 
@@ -85,14 +86,12 @@ TEST_F(GatewayStreams, NeedTheLinkMeasuredForImagesOnly) {
   Client ana = connect("Ana");
   subscribe(ana, 50, 10);
   pass(0.1);
-  EXPECT_FALSE(core_->paces_image(ana.id)) << "states alone";
+  EXPECT_FALSE(core_->next(ana.id, true, now_).measures_image) << "states alone";
   receive_image(1);
-  EXPECT_TRUE(core_->paces_image(ana.id)) << "it waits";
-  while (core_->next_message(ana.id, now_)) {
-  }
-  EXPECT_TRUE(core_->paces_image(ana.id)) << "its time is measured";
+  EXPECT_FALSE(core_->next(ana.id, false, now_).measures_image) << "it waits on a free link";
+  EXPECT_TRUE(core_->next(ana.id, true, now_).measures_image) << "it is under way";
   core_->set_unacknowledged(ana.id, 0, now_);
-  EXPECT_FALSE(core_->paces_image(ana.id));
+  EXPECT_FALSE(core_->next(ana.id, true, now_).measures_image);
 }
 
 TEST_F(GatewayStreams, SkipStatesForASlowClientAndSendNoOldOnes) {
