@@ -1,5 +1,6 @@
 #include "phone-gateway/server/core/gateway_core.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "phone-gateway/protocol/framing.h"
@@ -151,7 +152,11 @@ Outgoing GatewayCore::next(uint32_t client, bool takes_long, double now) {
     next.is_long_due = is_long(first) && !takes_long;
     if (next.is_long_due) break;
     next.message = take(*session, first, now);
-    if (next.message && first != Outbox::Next::kImage && sender.part != Outbox::Part::kShort) {
+    if (next.message && first == Outbox::Next::kImage) {
+      if (std::ranges::find(receiving_, session->id) == receiving_.end()) {
+        receiving_.push_back(session->id);
+      }
+    } else if (next.message && sender.part != Outbox::Part::kShort) {
       pacer.note_other(next.message->size());
     }
     first = outbox.next(pacer.may_send(), sender.part);
@@ -210,9 +215,12 @@ void GatewayCore::step(double now) {
   match_.step(now);
   sessions_.step(now);
   // Whether the last image has arrived: its time is measured, and the next one may wait for it.
-  for (const auto& [id, session] : sessions_.all()) {
-    if (session->streams.image_pacer.is_under_way()) session->wake();
-  }
+  std::erase_if(receiving_, [&](uint32_t client) {
+    const ClientSession* session = sessions_.find(client);
+    if (session == nullptr || !session->streams.image_pacer.is_under_way()) return true;
+    if (session->streams.image_pacer.is_to_be_measured(now)) session->wake();
+    return false;
+  });
 }
 
 void GatewayCore::shut_down(double now) {

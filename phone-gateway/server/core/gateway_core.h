@@ -145,6 +145,8 @@ class GatewayCore {
   MatchBoard match_;
   RequestHandler requests_;
   std::unique_ptr<ExhibitionDesk> exhibition_;
+  /** Clients with an image under way. */
+  std::vector<uint32_t> receiving_;
 };
 
 }  // namespace nao::gateway

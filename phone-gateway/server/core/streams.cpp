@@ -88,7 +88,10 @@ void Streams::add_image(CachedImage image, double now) {
   sessions_.for_each([&](ClientSession& session) {
     ClientStreams& streams = session.streams;
     // Clients of other cameras or sizes wait for theirs.
-    if (!streams.image().is_same_stream(received)) return;
+    if (streams.subscription.image.camera != received.camera ||
+        !streams.image().is_same_stream(received)) {
+      return;
+    }
     if (streams.image_throttle.allow(now)) session.request_image();
   });
 }
@@ -137,10 +140,11 @@ bool Streams::get(ClientSession& session, const ImageSelection* selection, doubl
 
 MessageBytes Streams::make_state_message(double now) {
   if (!mirror_.has_state()) return nullptr;
-  return state_encoding_.get(now, [&] {
-    naoremote::ServerMessage message;
-    mirror_.write(*message.mutable_state(), components_.is_available(Component::kRobot), now);
-    return message;
+  return state_encoding_.get(now, [&]() -> const naoremote::ServerMessage& {
+    state_message_.mutable_state()->Clear();
+    mirror_.write(*state_message_.mutable_state(), components_.is_available(Component::kRobot),
+                  now);
+    return state_message_;
   });
 }
 
@@ -188,6 +192,16 @@ std::vector<CameraRequest> Streams::camera_requests(double now) const {
     }
   });
   return requests;
+}
+
+bool Streams::has_image_client(double now) const {
+  return sessions_.has_any([&](const ClientSession& session) {
+    const ClientStreams& streams = session.streams;
+    return (streams.subscription.image_rate > 0 &&
+            streams.subscription.image.camera != kOverviewCamera) ||
+           (now - streams.last_poll < limits_.poll_timeout &&
+            streams.polled_image.camera != kOverviewCamera);
+  });
 }
 
 // While no states come, clients still get the last one now and then, with its age.

@@ -101,7 +101,7 @@ TEST_F(GatewayStreams, SkipStatesForASlowClientAndSendNoOldOnes) {
   const int num_before = num_states(ana);
   EXPECT_EQ(num_before, 1) << "one state, the newest";
   EXPECT_LT(ana.received.back().state().age_ms(), 25);
-  const auto& session = *core_->sessions().all().at(ana.id);
+  const auto& session = *core_->sessions().find(ana.id);
   EXPECT_NEAR(static_cast<double>(session.outbox.num_skipped()), 149, 3);
 }
 
