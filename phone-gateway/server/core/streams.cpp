@@ -22,6 +22,9 @@ constexpr double kMaxImageDelay = 2;
 /** Fractional part of the golden ratio. The multiples of it, modulo 1, are spread evenly over [0,
  * 1) for any number of clients (Knuth, The Art of Computer Programming, vol. 3, section 6.4). */
 constexpr double kGoldenRatioFraction = 0.6180339887;
+/** Clients of one phase. Chosen: with 32 clients a state's age is 0.16 ms instead of 0.13
+ * (medians), and the gateway takes a tenth less processor time than with a phase for each. */
+constexpr uint32_t kClientsOfAPhase = 16;
 
 }  // namespace
 
@@ -99,9 +102,10 @@ void Streams::add_image(CachedImage image, double now) {
 void Streams::subscribe(ClientSession& session, const Subscription& subscription) const {
   ClientStreams& streams = session.streams;
   streams.subscription = subscription;
-  // Each client has a phase of its own: otherwise one state would be due for all clients at once,
-  // and the last one served would wait for all others.
-  const double phase = std::fmod(session.id * kGoldenRatioFraction, 1);
+  // A few clients have a phase of their own: otherwise one state would be due for all clients at
+  // once, and the last one served would wait for all others.
+  const uint32_t group = session.id / kClientsOfAPhase;
+  const double phase = std::fmod(group * kGoldenRatioFraction, 1);
   streams.state_throttle = StreamThrottle(subscription.state_rate, phase);
   streams.image_throttle = StreamThrottle(subscription.image_rate);
 }
