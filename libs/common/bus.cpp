@@ -35,7 +35,14 @@ Bus::Bus(const std::string& url) : url_(url), lcm_(url) {
 
 // All messages that have arrived, without waiting; handlers run here.
 void Bus::handle() {
-  while (handle_one()) {
+  open_socket();
+  const BusSocket::Waiting waiting = socket_.waiting();
+  bool may_have_more = waiting.is_here;
+  while (may_have_more || !waiting_.empty()) {
+    if (waiting_.empty()) may_have_more = take_in();
+    if (!waiting_.empty()) handle_waiting();
+  }
+  while (waiting.is_at_lcm && handle_lcm()) {
   }
 }
 
@@ -51,10 +58,11 @@ bool Bus::handle_for(double timeout) {
 }
 
 // Of a message for several receivers each has a copy, which waits by the rule of its queue.
-void Bus::take_in() {
+// False: the kernel has no more.
+bool Bus::take_in() {
   while (waiting_.size() < kMostWaiting) {
     const auto message = socket_.receive();
-    if (!message) return;
+    if (!message) return false;
     for (const auto& receiver : receivers_) {
       if (receiver->channel.empty() || receiver->channel != message->channel) continue;
       if (receiver->queue_capacity == 1) {
@@ -66,24 +74,30 @@ void Bus::take_in() {
       next.bytes.assign(message->bytes.begin(), message->bytes.end());
     }
   }
+  return true;
+}
+
+void Bus::handle_waiting() {
+  // The handler may receive others.
+  Waiting next = std::move(waiting_.front());
+  waiting_.pop_front();
+  next.receiver->receive({next.receiver->channel, next.bytes, next.wall_utime});
+  unused_ = std::move(next.bytes);
+  if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
+}
+
+bool Bus::handle_lcm() {
+  const bool has_handled = lcm_.handleTimeout(0) > 0;
+  if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
+  return has_handled;
 }
 
 bool Bus::handle_one() {
   open_socket();
   if (waiting_.empty()) take_in();
-  bool has_handled = false;
-  if (waiting_.empty()) {
-    has_handled = lcm_.handleTimeout(0) > 0;
-  } else {
-    has_handled = true;
-    // The handler may receive others.
-    Waiting next = std::move(waiting_.front());
-    waiting_.pop_front();
-    next.receiver->receive({next.receiver->channel, next.bytes, next.wall_utime});
-    unused_ = std::move(next.bytes);
-  }
-  if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
-  return has_handled;
+  if (waiting_.empty()) return handle_lcm();
+  handle_waiting();
+  return true;
 }
 
 void Bus::count_sent(const std::string& channel, bool sent) {

@@ -137,7 +137,9 @@ class Bus {
   }
   void add_receiver(const std::string& pattern, const std::string& channel, int queue_capacity,
                     std::function<void(const RawMessage&)> handler);
-  void take_in();
+  bool take_in();
+  void handle_waiting();
+  bool handle_lcm();
   bool handle_one();
   void count_sent(const std::string& channel, bool sent);
   void drop(const std::string& channel, const std::string& why);

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <filesystem>
 #include <iterator>
@@ -84,6 +85,7 @@ int watch(const std::vector<int>& descriptors) {
   for (const int descriptor : descriptors) {
     epoll_event event{};
     event.events = EPOLLIN;
+    event.data.fd = descriptor;
     (void)epoll_ctl(result, EPOLL_CTL_ADD, descriptor, &event);
   }
   return result;
@@ -150,6 +152,17 @@ void BusSocket::leave_to_lcm() {
   if (lcm_socket_ >= 0) {
     (void)setsockopt(lcm_socket_, SOL_SOCKET, SO_DETACH_FILTER, &unused, sizeof unused);
   }
+}
+
+BusSocket::Waiting BusSocket::waiting() const {
+  if (either_ < 0) return {false, true};
+  std::array<epoll_event, 2> events{};
+  const int num = epoll_wait(either_, events.data(), static_cast<int>(events.size()), 0);
+  Waiting result;
+  for (int i = 0; i < num; ++i) {
+    (events[static_cast<size_t>(i)].data.fd == socket_ ? result.is_here : result.is_at_lcm) = true;
+  }
+  return result;
 }
 
 std::optional<WholeMessage> BusSocket::receive() {

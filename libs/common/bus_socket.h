@@ -47,6 +47,15 @@ class BusSocket {
   /** From now on LCM receives everything. */
   void leave_to_lcm();
 
+  struct Waiting {
+    /** receive() has a message, or a datagram that is none. */
+    bool is_here = false;
+    /** LCM has one, or may have one. */
+    bool is_at_lcm = false;
+  };
+  /** Where messages wait now: one system call for both. */
+  Waiting waiting() const;
+
   /** @return The next message that waits, valid until the next call; nothing if none does. */
   std::optional<WholeMessage> receive();
 

@@ -318,19 +318,21 @@ void run_gateway(const CommonOptions& common, GatewayOptions options) {
     loop.set_period(step_timer, is_busy ? kStepPeriod : kIdlePeriod);
   };
   const auto step = [&] {
-    bus.handle();
     last_step = monotonic_seconds();
     daemon.step(last_step);
     set_busy(!daemon.core().sessions().all().empty());
   };
-  // A step with the robot's states takes no wake-up of its own. It comes after they are sent.
+  // A step with the robot's states takes no wake-up of its own.
   loop.on_readable(bus.descriptor(), [&] {
     bus.handle();
     if (monotonic_seconds() < last_step + kLeastStepPeriod) return;
-    loop.later(step);
+    step();
     loop.restart(step_timer);
   });
-  step_timer = loop.every(kStepPeriod, step);
+  step_timer = loop.every(kStepPeriod, [&] {
+    bus.handle();
+    step();
+  });
   network.on_accepted([&] {
     bus.handle();
     set_busy(true);

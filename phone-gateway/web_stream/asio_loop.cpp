@@ -1,6 +1,5 @@
 #include "phone-gateway/web_stream/asio_loop.h"
 
-#include <boost/asio/post.hpp>
 #include <csignal>
 #include <iterator>
 #include <utility>
@@ -89,10 +88,6 @@ void AsioLoop::wait(Timer& timer) {
     timer.handler();
     wait(timer);
   });
-}
-
-void AsioLoop::later(std::function<void()> handler) {
-  asio::post(io_, std::move(handler));
 }
 
 std::string AsioLoop::run() {

@@ -52,9 +52,6 @@ class AsioLoop {
   /** The next call of a timer comes one period from now. */
   void restart(size_t timer);
 
-  /** Calls `handler` once, after what waits already. */
-  void later(std::function<void()> handler);
-
   /** Runs until a signal or stop(). @return "SIGINT", "SIGTERM" or the reason passed to stop(). */
   std::string run();
 

@@ -1,5 +1,6 @@
 #include "phone-gateway/server/core/gateway_core.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "phone-gateway/protocol/framing.h"
@@ -111,12 +112,6 @@ void GatewayCore::set_repeated_packets(uint32_t client, uint32_t number, double 
   if (ClientSession* session = sessions_.find(client)) session->note_repeated_packets(number, now);
 }
 
-bool GatewayCore::paces_image(uint32_t client) const {
-  const Sender sender = find_sender(client);
-  if (sender.client == nullptr || sender.part == Outbox::Part::kShort) return false;
-  return sender.client->outbox.is_image_due() || sender.client->streams.image_pacer.is_under_way();
-}
-
 void GatewayCore::set_unacknowledged(uint32_t client, size_t bytes, double now) {
   const Sender sender = find_sender(client);
   // That of the connection which carries the images.
@@ -132,65 +127,74 @@ void GatewayCore::close(uint32_t client, const Reason& reason, double now) {
   if (ClientSession* session = sessions_.find(client)) sessions_.close(*session, reason, now);
 }
 
-// The next message for the client's connection, made at this moment: states and images are encoded
-// when they can be sent, and so are never old.
-MessageBytes GatewayCore::next_message(uint32_t client, double now) {
+// The message is made at this moment: states and images are encoded when they can be sent, and so
+// are never old.
+Outgoing GatewayCore::next(uint32_t client, bool takes_long, double now) {
   const Sender sender = find_sender(client);
-  if (sender.connection == nullptr) return nullptr;
+  Outgoing next;
+  next.is_closing = sender.connection == nullptr || sender.connection->is_closing;
+  if (sender.connection == nullptr) return next;
   // Its own: copies of answers, and the notice with which it closes.
   if (sender.part == Outbox::Part::kLong && sender.connection->outbox.num_messages() > 0) {
-    return sender.connection->outbox.take_message();
+    next.message = sender.connection->outbox.take_message();
+    next.has_more = true;
+    return next;
   }
   ClientSession* session = sender.client;
-  if (session == nullptr || sender.connection->is_closing != session->is_closing) return nullptr;
-  GatewayRobot& robot = robots_.of(*session);
-  while (true) {
-    MessageBytes message;
-    bool is_image = false;
-    switch (session->outbox.next(session->streams.image_pacer.may_send(), sender.part)) {
-      case Outbox::Next::kNothing:
-        return nullptr;
-      case Outbox::Next::kMessage:
-        message = session->outbox.take_message();
-        break;
-      case Outbox::Next::kPlayState:
-        session->outbox.take_play_state();
-        if (!session->is_closing) message = robot.perception().make_play_state_message();
-        break;
-      case Outbox::Next::kVision:
-        session->outbox.take_vision();
-        if (!session->is_closing) message = robot.perception().make_vision_message();
-        break;
-      case Outbox::Next::kState:
-        session->outbox.take_state();
-        if (!session->is_closing) message = robot.streams().make_state_message(now);
-        break;
-      case Outbox::Next::kAudio:
-        message = session->outbox.take_audio();
-        if (session->is_closing) message.reset();
-        break;
-      case Outbox::Next::kImage:
-        session->outbox.take_image();
-        is_image = true;
-        if (!session->is_closing) message = robot.streams().make_image_message(*session, now);
-        break;
+  if (session == nullptr || sender.connection->is_closing != session->is_closing) return next;
+  Outbox& outbox = session->outbox;
+  ImagePacer& pacer = session->streams.image_pacer;
+  const auto is_long = [](Outbox::Next first) {
+    return first == Outbox::Next::kImage || first == Outbox::Next::kAudio;
+  };
+  Outbox::Next first = outbox.next(pacer.may_send(), sender.part);
+  while (first != Outbox::Next::kNothing && !next.message) {
+    next.is_long_due = is_long(first) && !takes_long;
+    if (next.is_long_due) break;
+    next.message = take(*session, first, now);
+    if (next.message && first == Outbox::Next::kImage) {
+      if (std::ranges::find(receiving_, session->id) == receiving_.end()) {
+        receiving_.push_back(session->id);
+      }
+    } else if (next.message && sender.part != Outbox::Part::kShort) {
+      pacer.note_other(next.message->size());
     }
-    // A state or image that was due may no longer exist.
-    if (!message) continue;
-    ++session->num_sent;
-    if (!is_image && sender.part != Outbox::Part::kShort) {
-      session->streams.image_pacer.note_other(message->size());
-    }
-    return message;
+    first = outbox.next(pacer.may_send(), sender.part);
   }
+  if (next.message) ++session->num_sent;
+  next.has_more = next.message && first != Outbox::Next::kNothing;
+  next.measures_image = sender.part != Outbox::Part::kShort && pacer.is_under_way();
+  return next;
 }
 
-bool GatewayCore::is_long_next(uint32_t client) const {
-  const Sender sender = find_sender(client);
-  if (sender.client == nullptr) return false;
-  const Outbox::Next next =
-      sender.client->outbox.next(sender.client->streams.image_pacer.may_send(), sender.part);
-  return next == Outbox::Next::kImage || next == Outbox::Next::kAudio;
+MessageBytes GatewayCore::take(ClientSession& session, Outbox::Next first, double now) {
+  GatewayRobot& robot = robots_.of(session);
+  Outbox& outbox = session.outbox;
+  // Of a client whose connection closes only what it was told is sent.
+  const bool is_closing = session.is_closing;
+  switch (first) {
+    case Outbox::Next::kNothing:
+      return nullptr;
+    case Outbox::Next::kMessage:
+      return outbox.take_message();
+    case Outbox::Next::kPlayState:
+      outbox.take_play_state();
+      return is_closing ? nullptr : robot.perception().make_play_state_message();
+    case Outbox::Next::kVision:
+      outbox.take_vision();
+      return is_closing ? nullptr : robot.perception().make_vision_message();
+    case Outbox::Next::kState:
+      outbox.take_state();
+      return is_closing ? nullptr : robot.streams().make_state_message(now);
+    case Outbox::Next::kAudio: {
+      MessageBytes piece = outbox.take_audio();
+      return is_closing ? nullptr : piece;
+    }
+    case Outbox::Next::kImage:
+      outbox.take_image();
+      return is_closing ? nullptr : robot.streams().make_image_message(session, now);
+  }
+  return nullptr;
 }
 
 bool GatewayCore::is_connected(uint32_t client) const {
@@ -211,9 +215,12 @@ void GatewayCore::step(double now) {
   match_.step(now);
   sessions_.step(now);
   // Whether the last image has arrived: its time is measured, and the next one may wait for it.
-  for (const auto& [id, session] : sessions_.all()) {
-    if (session->streams.image_pacer.is_under_way()) session->wake();
-  }
+  std::erase_if(receiving_, [&](uint32_t client) {
+    const ClientSession* session = sessions_.find(client);
+    if (session == nullptr || !session->streams.image_pacer.is_under_way()) return true;
+    if (session->streams.image_pacer.is_to_be_measured(now)) session->wake();
+    return false;
+  });
 }
 
 void GatewayCore::shut_down(double now) {

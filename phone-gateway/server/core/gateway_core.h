@@ -21,6 +21,21 @@
 
 namespace nao::gateway {
 
+/** What a connection that can take a message does next. */
+struct Outgoing {
+  /** To be sent; null: nothing now. */
+  MessageBytes message;
+  /** Another one can be taken at once. */
+  bool has_more = false;
+  /** An image or a piece of audio is next, and was not to be taken. */
+  bool is_long_due = false;
+  /** The connection has to call set_unacknowledged() before the next call: an image is under way,
+   * whose time is measured. */
+  bool measures_image = false;
+  /** The connection must close, if there is no message. */
+  bool is_closing = false;
+};
+
 /** The behaviour of the gateway: joins sessions, robots and requests.
  *
  * It has no socket, bus, clock, file or log: connections pass in the messages that they received
@@ -41,8 +56,7 @@ class GatewayCore {
   // ---- Connections ----
 
   /** A connection was accepted.
-   * @param wake  Called when next_message() or is_closing() has changed; must not call the core
-   *   before it has returned.
+   * @param wake  Called when next() has changed; must not call the core before it has returned.
    * @return Id of the session, counted up from 1. */
   uint32_t open(Endpoint endpoint, std::function<void()> wake, double now) {
     return sessions_.open(std::move(endpoint), std::move(wake), now);
@@ -58,11 +72,7 @@ class GatewayCore {
   void set_round_trip_time(uint32_t client, double round_trip_time, double least = 0);
   /** Packets that the transport has repeated on this connection until now. */
   void set_repeated_packets(uint32_t client, uint32_t number, double now);
-  /** Whether next_message() depends on set_unacknowledged(): an image waits for its turn, or the
-   * time of the last one is measured. */
-  bool paces_image(uint32_t client) const;
-  /** Bytes that the client has not acknowledged: next_message() gives no image while there are
-   * many. */
+  /** Bytes that the client has not acknowledged: next() gives no image while there are many. */
   void set_unacknowledged(uint32_t client, size_t bytes, double now);
 
   /** The network layer has refused a connection. @param why  For the audit log; a fixed text, so
@@ -77,14 +87,13 @@ class GatewayCore {
     sessions_.remove(client, why, now);
   }
 
-  /** Next message for a connection that can take one; null if there is none. */
-  [[nodiscard]] MessageBytes next_message(uint32_t client, double now);
+  /** Takes the next message for a connection that can take one.
+   * @param takes_long  Also an image or a piece of audio. */
+  [[nodiscard]] Outgoing next(uint32_t client, bool takes_long, double now);
 
-  /** True if that message is long: an image, or a piece of audio. */
-  bool is_long_next(uint32_t client) const;
   /** True from a successful Connect or Join until the client disconnects. */
   bool is_connected(uint32_t client) const;
-  /** True if the connection must close as soon as next_message() returns null. */
+  /** True if the connection must close as soon as next() has no message. */
   bool is_closing(uint32_t client) const;
 
   // ---- Robots ----
@@ -126,6 +135,8 @@ class GatewayCore {
   };
   /** @return Without a connection if there is none; without a client if that has ended. */
   Sender find_sender(uint32_t connection) const;
+  /** Takes the first message of an outbox; null: what was due does not exist any more. */
+  MessageBytes take(ClientSession& session, Outbox::Next first, double now);
 
   GatewayLimits limits_;
   std::function<void(const AuditEvent&)> audit_;
@@ -134,6 +145,8 @@ class GatewayCore {
   MatchBoard match_;
   RequestHandler requests_;
   std::unique_ptr<ExhibitionDesk> exhibition_;
+  /** Clients with an image under way. */
+  std::vector<uint32_t> receiving_;
 };
 
 }  // namespace nao::gateway

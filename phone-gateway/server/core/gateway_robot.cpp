@@ -1,8 +1,6 @@
 #include "phone-gateway/server/core/gateway_robot.h"
 
-#include <algorithm>
 #include <utility>
-#include <vector>
 
 namespace nao::gateway {
 namespace {
@@ -109,11 +107,7 @@ void GatewayRobot::step(double now) {
 }
 
 void GatewayRobot::step_components(double now) {
-  const std::vector<CameraRequest> requests = streams_.camera_requests(now);
-  const bool are_own_requested = std::any_of(
-      requests.begin(), requests.end(),
-      [](const CameraRequest& request) { return request.image.camera != kOverviewCamera; });
-  components_.set_images_requested(are_own_requested, now);
+  components_.set_images_requested(streams_.has_image_client(now), now);
   for (const ComponentMonitor::Change& change : components_.step(now)) {
     sessions_.broadcast(make_component_notice(change));
     streams_.handle_component_change();

@@ -46,6 +46,10 @@ class ImagePacer {
   bool may_send() const { return is_free_; }
   /** Whether update() must be called soon, to measure the time of the last image. */
   bool is_under_way() const { return is_under_way_; }
+  /** Whether it must be called now: otherwise there is time until something else is sent. */
+  bool is_to_be_measured(double now) const {
+    return is_under_way_ && now - sent_at_ >= kMeasuringPeriod;
+  }
 
   /** The images that this link can take, of those that the client wants. */
   ImageSelection reduce(ImageSelection wanted) const {
@@ -69,6 +73,8 @@ class ImagePacer {
   static constexpr double kLongTime = 0.1;
   static constexpr double kShortTime = 0.05;
   static constexpr int kNumShort = 20;
+  /** s. Chosen: a step of the gateway. */
+  static constexpr double kMeasuringPeriod = 0.02;
   /** JPEG qualities of the levels of one width. */
   static constexpr int kNumQualities = 3;
   static constexpr std::array<uint32_t, kNumQualities> kQualities = {95, 50, 30};

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -33,6 +34,15 @@ class RobotSessions {
     for (const auto& [id, session] : sessions_.all()) {
       if (session->is_connected && session->robot == robot_) act(*session);
     }
+  }
+
+  /** Whether one connected client's session fulfils a condition. */
+  template <class Condition>
+  bool has_any(Condition condition) const {
+    return std::ranges::any_of(sessions_.all(), [&](const auto& item) {
+      const ClientSession& session = *item.second;
+      return session.is_connected && session.robot == robot_ && condition(session);
+    });
   }
 
   /** Sends a message to every connected client. */

@@ -10,6 +10,9 @@ namespace {
 
 /** Bytes; see Connect. */
 constexpr size_t kMaxJoinKey = 64;
+/** Time between two checks of the limits, s. Chosen: a fiftieth of the timeouts; a client adds at
+ * most ten messages to its outbox in it. */
+constexpr double kCheckPeriod = 0.1;
 
 void add(ClientCounters& sum, const ClientCounters& counters) {
   sum.num_requests += counters.num_requests;
@@ -23,14 +26,20 @@ void add(ClientCounters& sum, const ClientCounters& counters) {
 uint32_t Sessions::open(Endpoint endpoint, std::function<void()> wake, double now) {
   // Numbers are not used again: a late event of an old connection finds nothing.
   const uint32_t id = ++last_id_;
-  sessions_[id] = std::make_unique<ClientSession>(id, std::move(endpoint), std::move(wake),
-                                                  limits_.max_request_rate, now);
+  sessions_.emplace_back(id,
+                         std::make_unique<ClientSession>(id, std::move(endpoint), std::move(wake),
+                                                         limits_.max_request_rate, now));
   return id;
 }
 
 ClientSession* Sessions::find(uint32_t id) const {
-  const auto found = sessions_.find(id);
+  const auto found = position_of(id);
   return found == sessions_.end() ? nullptr : found->second.get();
+}
+
+Sessions::List::const_iterator Sessions::position_of(uint32_t id) const {
+  const auto found = std::ranges::lower_bound(sessions_, id, {}, &List::value_type::first);
+  return found != sessions_.end() && found->first == id ? found : sessions_.end();
 }
 
 void Sessions::connect(ClientSession& session, const naoremote::Connect& request) {
@@ -94,7 +103,7 @@ void Sessions::remove(uint32_t id, const std::string& why, double now) {
     first->wake_second = nullptr;
     first->streams.image_pacer = {};
   }
-  sessions_.erase(id);
+  sessions_.erase(position_of(id));
 }
 
 // Once for each client, whether it closes, is closed or is lost: control is released here.
@@ -114,6 +123,8 @@ void Sessions::broadcast(const naoremote::ServerMessage& message) const {
 }
 
 void Sessions::step(double now) {
+  if (now < next_check_) return;
+  next_check_ = now + kCheckPeriod;
   for (const auto& [id, session] : sessions_) {
     if (session->is_closing) continue;
     const bool is_second = session->first != 0;

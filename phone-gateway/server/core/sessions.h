@@ -2,9 +2,10 @@
 
 #include <cstdint>
 #include <functional>
-#include <map>
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "phone-gateway/server/core/audit_event.h"
 #include "phone-gateway/server/core/client_session.h"
@@ -17,7 +18,8 @@ namespace nao::gateway {
  * silent, do not connect in time, or do not read what they are sent. */
 class Sessions {
  public:
-  using Map = std::map<uint32_t, std::unique_ptr<ClientSession>>;
+  /** By ascending id, in one piece of memory: it is gone through for every message of a robot. */
+  using List = std::vector<std::pair<uint32_t, std::unique_ptr<ClientSession>>>;
 
   Sessions(const GatewayLimits& limits, std::function<void(const AuditEvent&)> audit)
       : limits_(limits), audit_(std::move(audit)) {}
@@ -59,7 +61,7 @@ class Sessions {
   /** Closes the sessions that exceed a limit. */
   void step(double now);
 
-  const Map& all() const { return sessions_; }
+  const List& all() const { return sessions_; }
   int num_connected() const;
   /** Connected clients of one address. */
   int num_connected_from(const std::string& address) const;
@@ -71,13 +73,16 @@ class Sessions {
  private:
   /** The client no longer counts as connected. */
   void disconnect(ClientSession& session, const std::string& why, double now);
+  List::const_iterator position_of(uint32_t id) const;
   std::string make_unique_name(const std::string& requested, uint32_t id) const;
 
   GatewayLimits limits_;
   std::function<void(const AuditEvent&)> audit_;
   std::function<void(const ClientSession&, double)> on_disconnect_;
-  Map sessions_;
+  List sessions_;
   uint32_t last_id_ = 0;
+  /** s. */
+  double next_check_ = 0;
   /** Counters of the clients that have disconnected. */
   ClientCounters past_counters_;
 };

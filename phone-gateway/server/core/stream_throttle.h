@@ -8,13 +8,13 @@ namespace nao::gateway {
  *
  * On average it passes `rate` events a second, or all events if fewer arrive. An event may pass up
  * to half a period early, so that a stream of exactly the requested rate passes completely in spite
- * of its jitter. If several streams begin together and are reduced to the same rate, those with
- * different phases pass different events. */
+ * of its jitter. Of streams that are reduced to the same rate, those with the same phase pass the
+ * same events, those with different phases different ones. */
 class StreamThrottle {
  public:
   /** @param rate   Events a second to pass; 0: none.
-   * @param phase  Delay of the second and later events, fraction of a period, [0, 1). The first
-   *   event passes at once. */
+   * @param phase  The second and later events are due at this fraction of a period, [0, 1), after
+   *   multiples of the period. The first event passes at once. */
   explicit StreamThrottle(double rate = 0, double phase = 0) : rate_(rate), phase_(phase) {}
 
   /** @param now  s, never running backwards. @return true if the event at `now` passes. */
@@ -23,7 +23,7 @@ class StreamThrottle {
     const double period = 1 / rate_;
     if (!has_begun_) {
       has_begun_ = true;
-      due_ = now + phase_ * period;
+      due_ = (std::floor(now / period) + 1 + phase_) * period;
       return true;
     }
     if (now < due_ - period / 2) return false;

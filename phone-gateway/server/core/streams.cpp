@@ -22,6 +22,9 @@ constexpr double kMaxImageDelay = 2;
 /** Fractional part of the golden ratio. The multiples of it, modulo 1, are spread evenly over [0,
  * 1) for any number of clients (Knuth, The Art of Computer Programming, vol. 3, section 6.4). */
 constexpr double kGoldenRatioFraction = 0.6180339887;
+/** Clients of one phase. Chosen: with 32 clients a state's age is 0.16 ms instead of 0.13
+ * (medians), and the gateway takes a tenth less processor time than with a phase for each. */
+constexpr uint32_t kClientsOfAPhase = 16;
 
 }  // namespace
 
@@ -88,7 +91,10 @@ void Streams::add_image(CachedImage image, double now) {
   sessions_.for_each([&](ClientSession& session) {
     ClientStreams& streams = session.streams;
     // Clients of other cameras or sizes wait for theirs.
-    if (!streams.image().is_same_stream(received)) return;
+    if (streams.subscription.image.camera != received.camera ||
+        !streams.image().is_same_stream(received)) {
+      return;
+    }
     if (streams.image_throttle.allow(now)) session.request_image();
   });
 }
@@ -96,9 +102,10 @@ void Streams::add_image(CachedImage image, double now) {
 void Streams::subscribe(ClientSession& session, const Subscription& subscription) const {
   ClientStreams& streams = session.streams;
   streams.subscription = subscription;
-  // Each client has a phase of its own: otherwise one state would be due for all clients at once,
-  // and the last one served would wait for all others.
-  const double phase = std::fmod(session.id * kGoldenRatioFraction, 1);
+  // A few clients have a phase of their own: otherwise one state would be due for all clients at
+  // once, and the last one served would wait for all others.
+  const uint32_t group = session.id / kClientsOfAPhase;
+  const double phase = std::fmod(group * kGoldenRatioFraction, 1);
   streams.state_throttle = StreamThrottle(subscription.state_rate, phase);
   streams.image_throttle = StreamThrottle(subscription.image_rate);
 }
@@ -137,10 +144,11 @@ bool Streams::get(ClientSession& session, const ImageSelection* selection, doubl
 
 MessageBytes Streams::make_state_message(double now) {
   if (!mirror_.has_state()) return nullptr;
-  return state_encoding_.get(now, [&] {
-    naoremote::ServerMessage message;
-    mirror_.write(*message.mutable_state(), components_.is_available(Component::kRobot), now);
-    return message;
+  return state_encoding_.get(now, [&]() -> const naoremote::ServerMessage& {
+    state_message_.mutable_state()->Clear();
+    mirror_.write(*state_message_.mutable_state(), components_.is_available(Component::kRobot),
+                  now);
+    return state_message_;
   });
 }
 
@@ -188,6 +196,16 @@ std::vector<CameraRequest> Streams::camera_requests(double now) const {
     }
   });
   return requests;
+}
+
+bool Streams::has_image_client(double now) const {
+  return sessions_.has_any([&](const ClientSession& session) {
+    const ClientStreams& streams = session.streams;
+    return (streams.subscription.image_rate > 0 &&
+            streams.subscription.image.camera != kOverviewCamera) ||
+           (now - streams.last_poll < limits_.poll_timeout &&
+            streams.polled_image.camera != kOverviewCamera);
+  });
 }
 
 // While no states come, clients still get the last one now and then, with its age.

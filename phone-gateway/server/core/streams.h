@@ -82,6 +82,8 @@ class Streams {
 
   /** The images that clients request now. */
   std::vector<CameraRequest> camera_requests(double now) const;
+  /** Whether a client requests images of the robot's own cameras. */
+  bool has_image_client(double now) const;
 
   /** Robot time at `now`, microseconds; 0 if unknown. */
   int64_t calc_robot_utime(double now) const { return mirror_.calc_robot_utime(now); }
@@ -100,6 +102,8 @@ class Streams {
   const ComponentMonitor& components_;
   RobotMirror mirror_;
   SharedEncoding state_encoding_;
+  /** Memory of the last one, for the next. */
+  naoremote::ServerMessage state_message_;
   ImageCache images_;
   /** Command that is being spoken, and the number that clients get of it. */
   std::string speech_source_;

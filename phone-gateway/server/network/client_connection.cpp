@@ -41,10 +41,7 @@ void ClientConnection::open(const Endpoint& endpoint) {
     // One flush for all messages of an event. Later, as the core may call this while it goes
     // through its sessions.
     if (!self || std::exchange(self->is_flush_queued_, true)) return;
-    self->context_.flush_queue.add([self] {
-      self->is_flush_queued_ = false;
-      self->flush(false);
-    });
+    self->context_.flush_queue.add(weak);
   };
   id_ = context_.core.open(endpoint, wake, monotonic_seconds());
 }
@@ -71,37 +68,37 @@ void ClientConnection::reject(const Reason& reason) {
   context_.core.close(id_, reason, monotonic_seconds());
 }
 
-void ClientConnection::flush(bool has_turn) {
+void ClientConnection::flush() {
+  is_flush_queued_ = false;
+  send_messages(false);
+}
+
+void ClientConnection::send_long() {
+  is_long_queued_ = false;
+  send_messages(true);
+}
+
+void ClientConnection::send_messages(bool takes_long) {
   if (is_writing_ || is_finished_) return;
   const double now = monotonic_seconds();
-  // It takes a system call, and what has its turn was checked before it waited.
-  if (!has_turn && context_.core.paces_image(id_)) {
-    context_.core.set_unacknowledged(id_, unacknowledged(), now);
-  }
+  // It takes a system call.
+  if (measures_image_) context_.core.set_unacknowledged(id_, unacknowledged(), now);
+  Outgoing next;
   // One message is sent at a time; the next is made when this one has left.
-  while (!is_writing_) {
-    // Images and audio wait in a queue for their turn (FairQueue): a client with large ones must
-    // not delay the states of others.
-    if (!std::exchange(has_turn, false) && context_.core.is_long_next(id_)) return queue_image();
-    auto message = context_.core.next_message(id_, now);
-    if (!message) break;
-    send(std::move(message));
-  }
-  if (!is_writing_ && is_closing() && !std::exchange(is_shut_down_, true)) {
+  do {
+    next = context_.core.next(id_, std::exchange(takes_long, false), now);
+    measures_image_ = next.measures_image;
+    if (next.message) send(std::move(next.message));
+  } while (!is_writing_ && next.has_more);
+  if (is_writing_) return;
+  if (next.is_long_due) {
+    // A client with large images must not delay the states of others.
+    if (!std::exchange(is_long_queued_, true)) context_.image_queue.add(weak_from_this());
+  } else if (next.is_closing && !std::exchange(is_shut_down_, true)) {
     // All messages are sent, the last of them CLOSING.
     set_deadline(kClosingTimeout);
     shut_down();
   }
-}
-
-void ClientConnection::queue_image() {
-  if (std::exchange(is_image_queued_, true)) return;
-  context_.image_queue.add([weak = weak_from_this()] {
-    const auto self = weak.lock();
-    if (!self) return;
-    self->is_image_queued_ = false;
-    self->flush(true);
-  });
 }
 
 void ClientConnection::send(MessageBytes message) {
@@ -115,7 +112,7 @@ void ClientConnection::on_written(bool has_failed) {
   if (has_failed) {
     abort("closed by the client");
   } else {
-    flush(false);
+    send_messages(false);
   }
 }
 

@@ -22,6 +22,12 @@ class ClientConnection : public std::enable_shared_from_this<ClientConnection> {
   ClientConnection(const ClientConnection&) = delete;
   ClientConnection& operator=(const ClientConnection&) = delete;
 
+  /** Sends messages until there is none or the connection takes no more. An image or a piece of
+   * audio waits in a queue for its turn. */
+  void flush();
+  /** It is the turn of an image or a piece of audio of this connection. */
+  void send_long();
+
  protected:
   /** Opens a session. To be called when messages can be sent and received. */
   void open(const Endpoint& endpoint);
@@ -56,10 +62,8 @@ class ClientConnection : public std::enable_shared_from_this<ClientConnection> {
   ConnectionContext& context_;
 
  private:
-  /** Sends messages until the connection takes no more. An image waits in a queue for its turn.
-   * @param has_turn  The first message may be an image. */
-  void flush(bool has_turn);
-  void queue_image();
+  /** @param takes_long  The first message may be an image or a piece of audio. */
+  void send_messages(bool takes_long);
   void send(MessageBytes message);
   void set_deadline(std::chrono::seconds time);
   void wait_for_deadline();
@@ -78,7 +82,9 @@ class ClientConnection : public std::enable_shared_from_this<ClientConnection> {
   HandshakeLimiter::Entry handshake_;
   bool is_in_handshake_ = false;
   bool is_flush_queued_ = false;
-  bool is_image_queued_ = false;
+  bool is_long_queued_ = false;
+  /** Of Outgoing. */
+  bool measures_image_ = false;
   bool is_writing_ = false;
   bool is_shut_down_ = false;
   bool is_finished_ = false;

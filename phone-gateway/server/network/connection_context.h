@@ -1,5 +1,7 @@
 #pragma once
 
+#include <memory>
+
 #include "phone-gateway/server/core/gateway_core.h"
 #include "phone-gateway/server/network/fair_queue.h"
 #include "phone-gateway/server/network/http_server.h"
@@ -8,14 +10,16 @@
 
 namespace nao::gateway {
 
+class ClientConnection;
+
 /** The objects that all connections of the gateway share. */
 struct ConnectionContext : HttpContext {
   GatewayCore& core;
   /** Connections with something to send: all of one event are served in one iteration. */
-  FairQueue flush_queue;
+  FairQueue<std::weak_ptr<ClientConnection>> flush_queue;
   /** Transmissions of images: a state that arrives in the meantime must not wait for all of them.
    */
-  FairQueue image_queue;
+  FairQueue<std::weak_ptr<ClientConnection>> image_queue;
   /** The network is being destroyed: connections no longer report their end to the core. */
   bool is_shutting_down = false;
 };

@@ -11,19 +11,21 @@
 
 namespace nao::gateway {
 
-/** Executes tasks in order after the handler that adds them, for a limited time in each iteration
- * of the event loop: events that have become ready in the meantime are handled between two tasks.
- */
+/** Serves items in order after the handler that adds them, for a limited time in each iteration of
+ * the event loop: events that have become ready in the meantime are handled between two items. */
+template <class Item>
 class FairQueue {
  public:
   /** @param io  Must outlive this, or at least run nothing after the end of this.
-   * @param slice  Time of one iteration, after which no task begins; 0: one task in each. */
-  FairQueue(boost::asio::io_context& io, std::chrono::microseconds slice)
-      : io_(io), slice_(slice) {}
+   * @param slice  Time of one iteration, after which no item is served; 0: one item in each.
+   * @param serve  Called once for each item. */
+  FairQueue(boost::asio::io_context& io, std::chrono::microseconds slice,
+            std::function<void(const Item&)> serve)
+      : io_(io), slice_(slice), serve_(std::move(serve)) {}
 
-  void add(std::function<void()> task) {
-    tasks_.push_back(std::move(task));
-    if (tasks_.size() == 1) post();
+  void add(Item item) {
+    items_.push_back(std::move(item));
+    if (items_.size() == 1) post();
   }
 
  private:
@@ -31,18 +33,19 @@ class FairQueue {
     boost::asio::post(io_, [this] {
       const auto end = std::chrono::steady_clock::now() + slice_;
       do {
-        const std::function<void()> task = std::move(tasks_.front());
-        task();
-        // Removed only after the task, so that a task that adds another one does not post twice.
-        tasks_.pop_front();
-      } while (!tasks_.empty() && std::chrono::steady_clock::now() < end);
-      if (!tasks_.empty()) post();
+        const Item item = std::move(items_.front());
+        serve_(item);
+        // Removed only afterwards, so that an item that adds another one does not post twice.
+        items_.pop_front();
+      } while (!items_.empty() && std::chrono::steady_clock::now() < end);
+      if (!items_.empty()) post();
     });
   }
 
   boost::asio::io_context& io_;
   std::chrono::microseconds slice_;
-  std::deque<std::function<void()>> tasks_;
+  std::function<void(const Item&)> serve_;
+  std::deque<Item> items_;
 };
 
 }  // namespace nao::gateway

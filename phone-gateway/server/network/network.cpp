@@ -1,4 +1,5 @@
 #include "phone-gateway/server/network/bluetooth_server.h"
+#include "phone-gateway/server/network/client_connection.h"
 #include "phone-gateway/server/network/connection_context.h"
 #include "phone-gateway/server/network/relay_client.h"
 #include "phone-gateway/server/network/websocket_connection.h"
@@ -40,8 +41,16 @@ struct Network::Impl {
                             [this](WebStream stream, WebRequest request) {
                               serve_websocket(context, std::move(stream), std::move(request));
                             }},
-                core, FairQueue(new_loop->io(), kFlushSlice),
-                FairQueue(new_loop->io(), kImageSlice), false},
+                core,
+                {new_loop->io(), kFlushSlice,
+                 [](const std::weak_ptr<ClientConnection>& connection) {
+                   if (const auto queued = connection.lock()) queued->flush();
+                 }},
+                {new_loop->io(), kImageSlice,
+                 [](const std::weak_ptr<ClientConnection>& connection) {
+                   if (const auto queued = connection.lock()) queued->send_long();
+                 }},
+                false},
         loop(std::move(new_loop)),
         http(loop->io(), options.bind, options.http_port, "--http-port",
              accepting([this](Tcp::socket socket) { serve_http(context, std::move(socket)); })),

@@ -1,8 +1,10 @@
 #include "common/bus_socket.h"
 
 #include <gtest/gtest.h>
+#include <poll.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <naolcm/stop_command_t.hpp>
@@ -103,6 +105,22 @@ TEST_F(BusSocketTest, AMessageInFragmentsArrivesOnce) {
   send("STOP", 2);
   while (ids_.size() < 2) ASSERT_TRUE(receiver_.handle_for(2));
   EXPECT_EQ(ids_, (std::vector<int>{1, 2}));
+}
+
+TEST_F(BusSocketTest, WholeMessagesAndFragmentsAreHandledTogether) {
+  receive("STOP", Bus::Queue::kAll);
+  send("STOP", 1, std::string(100'000, 'x'));
+  for (int i = 2; i <= 100; ++i) send("STOP", i);
+  while (ids_.size() < 100) {
+    pollfd polled{receiver_.descriptor(), POLLIN, 0};
+    ASSERT_EQ(poll(&polled, 1, 2000), 1);
+    receiver_.handle();
+  }
+  pollfd polled{receiver_.descriptor(), POLLIN, 0};
+  EXPECT_EQ(poll(&polled, 1, 0), 0) << "nothing is left";
+  std::sort(ids_.begin(), ids_.end());
+  EXPECT_EQ(ids_.front(), 1);
+  EXPECT_EQ(ids_.back(), 100);
 }
 
 TEST_F(BusSocketTest, BesideAPatternEachMessageArrivesOnce) {

@@ -103,7 +103,7 @@ class FuzzedGateway {
     core_.step(now_);
   }
   void collect(int client) {
-    while (core_.next_message(ids_[client], now_)) {
+    while (core_.next(ids_[client], true, now_).message) {
     }
   }
 

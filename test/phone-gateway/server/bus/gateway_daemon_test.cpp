@@ -51,7 +51,7 @@ class GatewayDaemonTest : public testing::Test {
   void ask(const naoremote::Request& request) {
     (void)daemon_.core().receive(client_, request.SerializeAsString(), monotonic_seconds());
     run();
-    while (const auto bytes = daemon_.core().next_message(client_, monotonic_seconds())) {
+    while (const auto bytes = daemon_.core().next(client_, true, monotonic_seconds()).message) {
       messages_.emplace_back();
       ASSERT_TRUE(messages_.back().ParseFromString(*bytes));
     }

@@ -120,7 +120,7 @@ class GatewayFixture : public testing::Test {
   /** Takes all messages that are queued for a client; what was sent before has arrived. */
   void collect(Client& client) {
     core_->set_unacknowledged(client.id, 0, now_);
-    while (const auto bytes = core_->next_message(client.id, now_)) {
+    while (const auto bytes = core_->next(client.id, true, now_).message) {
       naoremote::ServerMessage message;
       ASSERT_TRUE(message.ParseFromString(*bytes));
       client.received.push_back(message);

@@ -45,6 +45,18 @@ TEST(StreamThrottle, PassesAllEventsOfAStreamOfItsRateAtAnyPhase) {
   for (const double phase : {0.0, 0.3, 0.6, 0.9}) EXPECT_GE(count(30, 30, 0.01, 20, phase), 598);
 }
 
+TEST(StreamThrottle, PassesTheSameEventsAtTheSamePhaseWhenItBeganLater) {
+  StreamThrottle early(30, 0.3);
+  StreamThrottle late(30, 0.3);
+  int num_different = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const double now = 50 + i * 0.01;
+    const bool is_early = early.allow(now);
+    if (i >= 7) num_different += static_cast<int>(late.allow(now) != is_early);
+  }
+  EXPECT_LE(num_different, 1) << "the first one";
+}
+
 TEST(StreamThrottle, PassesOtherEventsAtAnotherPhaseAlsoAfterAPause) {
   StreamThrottle early(10);
   StreamThrottle late(10, 0.5);

@@ -9,11 +9,13 @@
 namespace nao::gateway {
 namespace {
 
-TEST(FairQueue, HandlesReadyEventsBetweenItsTasks) {
+using Tasks = FairQueue<std::function<void()>>;
+
+TEST(FairQueue, HandlesReadyEventsBetweenItsItems) {
   std::array<int, 2> ends{};
   ASSERT_EQ(pipe(ends.data()), 0);
   boost::asio::io_context io;
-  FairQueue queue(io, std::chrono::microseconds(0));
+  Tasks queue(io, std::chrono::microseconds(0), [](const auto& task) { task(); });
   boost::asio::posix::stream_descriptor reader(io, ends[0]);
   int num_done = 0;
   int num_done_before_reading = -1;
@@ -31,9 +33,9 @@ TEST(FairQueue, HandlesReadyEventsBetweenItsTasks) {
   close(ends[1]);
 }
 
-TEST(FairQueue, ExecutesATaskThatATaskAdds) {
+TEST(FairQueue, ServesAnItemThatAnItemAdds) {
   boost::asio::io_context io;
-  FairQueue queue(io, std::chrono::microseconds(0));
+  Tasks queue(io, std::chrono::microseconds(0), [](const auto& task) { task(); });
   int num_done = 0;
   queue.add([&] {
     ++num_done;
