@@ -35,6 +35,8 @@ void SensorCorrection::correct(Sensors& sensors) const {
   sensors.gyroscope_torso =
       torso_from_unit_ * (sensors.gyroscope_torso - calibration_.gyroscope_offset)
                              .cwiseQuotient(calibration_.gyroscope_scale);
+  sensors.orientation_torso_in_world =
+      sensors.orientation_torso_in_world * Eigen::Quaterniond(torso_from_unit_.transpose());
   for (size_t i = 0; i < sensors.foot_force.size(); ++i) {
     const double scale = calibration_.foot_sensor_scale[i];
     sensors.foot_force[i] = scale > 0 ? sensors.foot_force[i] / scale : 0;

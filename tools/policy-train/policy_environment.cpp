@@ -22,6 +22,13 @@ constexpr double kLyingTime = 1;
 // phone's sticks give such ones mostly.
 constexpr double kRestShare = 0.2;
 constexpr double kSingleShare = 0.3;
+// Share of the commands straight ahead at the upper end of the range, from this fraction of it on,
+// and share of the next commands that are then 0. Chosen: a stop from full speed is hardest.
+constexpr double kFastShare = 0.35;
+constexpr double kFast = 0.7;
+constexpr double kFastRestShare = 0.5;
+// Time constant of the mean error of the velocity, s. Chosen: most of a gait cycle.
+constexpr double kMeanTime = 0.5;
 // Mean time between two pushes, s.
 constexpr double kPushTime = 4;
 
@@ -77,6 +84,7 @@ void PolicyEnvironment::reset(const StepOutput& output) {
   input_.command = options_.command.value_or(Eigen::Vector3d::Zero());
   draw_goal();
   sample(before_);
+  before_.velocity_error.setZero();
   observe(output);
 }
 
@@ -119,6 +127,10 @@ void PolicyEnvironment::step(const float* action, const StepOutput& output) {
   }
   ++num_steps_;
   sample(after_);
+  Eigen::Vector3d error = velocity_in_heading(after_) - input_.command;
+  error.z() = (after_.torso.linear() * after_.angular_velocity).z() - input_.command.z();
+  after_.velocity_error =
+      before_.velocity_error + (error - before_.velocity_error) * manifest.period / kMeanTime;
   const bool is_get_up = manifest.kind == PolicyManifest::Kind::kGetUp;
   const double up = after_.torso.linear()(2, 2);
   const bool fallen = !is_get_up && (up < std::cos(kFallenTilt) ||
@@ -157,13 +169,18 @@ void PolicyEnvironment::draw_goal() {
     goal_ = input_.command;
     return;
   }
+  const Eigen::Vector3d goal_before = goal_;
   goal_ = {random_.uniform(manifest.vx.lower, manifest.vx.upper),
            random_.uniform(manifest.vy.lower, manifest.vy.upper),
            random_.uniform(manifest.wz.lower, manifest.wz.upper)};
   const double kind = random_.uniform();
   const auto single = static_cast<long>(random_.uniform(0, 3));
-  if (kind < kRestShare) {
+  const double rest_share =
+      goal_before.x() > kFast * manifest.vx.upper ? kFastRestShare : kRestShare;
+  if (kind < rest_share) {
     goal_.setZero();
+  } else if (kind > 1 - kFastShare) {
+    goal_ = {random_.uniform(kFast, 1) * manifest.vx.upper, 0, 0};
   } else if (kind < kRestShare + kSingleShare) {
     for (long i = 0; i < 3; ++i) {
       if (i != single) goal_[i] = 0;

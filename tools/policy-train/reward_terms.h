@@ -15,6 +15,8 @@ enum class RewardTerm {
   /** exp(-error^2 / 0.25) of the horizontal velocity, m/s, and of the turn, rad/s. */
   kVelocityTracking,
   kTurnTracking,
+  /** exp(-error^2 / 0.02) of their means, m/s and 2 rad/s: a step's swaying cancels in them. */
+  kMeanVelocity,
   /** Squares of: the horizontal part of the unit vector down, of the torso; its height, as a
    * fraction of the standing one; its vertical speed, m/s; its rate of roll and pitch, rad/s. */
   kTilt,
@@ -65,6 +67,9 @@ struct MotionSample {
   /** In the torso's frame, rad/s and m/s. */
   Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();
   Eigen::Vector3d linear_velocity = Eigen::Vector3d::Zero();
+  /** Horizontal velocity in the frame of the torso's heading, m/s, and turn, rad/s, less the
+   * commanded ones; means over about half a second. */
+  Eigen::Vector3d velocity_error = Eigen::Vector3d::Zero();
   /** In W; left, right. */
   std::array<Eigen::Isometry3d, 2> soles{Eigen::Isometry3d::Identity(),
                                          Eigen::Isometry3d::Identity()};
@@ -76,6 +81,9 @@ struct MotionSample {
   Eigen::VectorXd torque;
   Eigen::VectorXd target;
 };
+
+/** Velocity in the frame of the torso's heading, m/s. */
+Eigen::Vector3d velocity_in_heading(const MotionSample& sample);
 
 /** Computes the terms of a step.
  * @param start      At the default angles, standing.

@@ -40,9 +40,11 @@ class PolicyMotion : public MotionGenerator {
   const PolicyRecord* policy_record() const override { return has_record_ ? &record_ : nullptr; }
 
  private:
-  enum class Stage { kStandingUp, kApproaching, kRunning, kReturning, kEnding };
+  /** In this order; while it fades, the policy's targets give way to its default angles. */
+  enum class Stage { kStandingUp, kApproaching, kRunning, kFading, kReturning, kEnding };
 
   PolicyManifest::Kind kind() const { return policy_->manifest->kind; }
+  bool is_policy_moving() const { return stage_ == Stage::kRunning || stage_ == Stage::kFading; }
   void approach(const MotionContext& context, const JointTargets& targets);
   void begin_policy(const JointTargets& targets);
   void return_to_stand(const MotionContext& context, const JointTargets& targets);

@@ -45,11 +45,14 @@ TEST(SensorCorrection, ReadingsBecomeTheTrueValues) {
   sensors.accelerometer_torso = mount.inverse() * up;
   sensors.gyroscope_torso = (mount.inverse() * rate).cwiseProduct(calibration.gyroscope_scale) +
                             calibration.gyroscope_offset;
+  const Eigen::Quaterniond orientation(Eigen::AngleAxisd(0.3, Vector3d(1, 2, 3).normalized()));
+  sensors.orientation_torso_in_world = orientation * Eigen::Quaterniond(mount);
   sensors.foot_force[2] *= 0.7;
   const double force = PerfectRobot().sensors().foot_force[2];
   correction.correct(sensors);
   EXPECT_NEAR(sensors.position[knee], angle, 1e-12);
   EXPECT_NEAR(sensors.target_position[knee], angle, 1e-12);
+  EXPECT_LT(sensors.orientation_torso_in_world.angularDistance(orientation), 1e-9);
   EXPECT_LT((sensors.accelerometer_torso - up).norm(), 1e-12);
   EXPECT_LT((sensors.gyroscope_torso - rate).norm(), 1e-12);
   EXPECT_NEAR(sensors.foot_force[2], force, 1e-12);

@@ -58,6 +58,12 @@ TEST_F(RewardTerms, TrackTheVelocityInTheFrameOfTheHeading) {
   EXPECT_NEAR(term(RewardTerm::kTurnTracking, {0.3, 0, 0}), std::exp(-1.0), 1e-6);
 }
 
+TEST_F(RewardTerms, TrackTheMeanVelocityMoreNarrowly) {
+  EXPECT_EQ(term(RewardTerm::kMeanVelocity), 1);
+  after_.velocity_error = {0.1, 0, 0.2};
+  EXPECT_NEAR(term(RewardTerm::kMeanVelocity), std::exp(-1.0), 1e-6);
+}
+
 TEST_F(RewardTerms, PunishTiltUpsideDownMost) {
   const auto tilted = [this](double angle) {
     after_.torso.linear() = Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitX()).toRotationMatrix();
