@@ -46,9 +46,10 @@ class Convolution {
     int padding = 0;
     int dilation = 1;
 
-    /** Number of rows or columns of the output; 0 or less if the kernel does not fit. */
+    /** Number of rows or columns of the output; 0 if the kernel does not fit. */
     int output_size(int input_size) const {
-      return (input_size + 2 * padding - dilation * (kernel - 1) - 1) / stride + 1;
+      const int room = input_size + 2 * padding - dilation * (kernel - 1) - 1;
+      return room < 0 ? 0 : room / stride + 1;
     }
   };
   /** Activations of an output have a multiple of this many channels; those beyond it are 0. */

@@ -1,13 +1,14 @@
 // Fuzzer of what reads a network's file: the project's own file with changed layers, or any bytes.
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <fstream>
 #include <sstream>
 #include <string>
 #include <vector>
 
+#include "common/data_path.h"
 #include "common/error.h"
-#include "common/install_paths.h"
 #include "daemons/vision/layer_graph.h"
 #include "onnx.pb.h"
 
@@ -20,7 +21,7 @@ constexpr int kSize = 16;
 
 onnx::Model read_ball_network() {
   onnx::Model model;
-  std::ifstream file(nao::data_dir() / "networks/ball.onnx", std::ios::binary);
+  std::ifstream file(nao::data_path() / "networks/ball.onnx", std::ios::binary);
   if (!model.ParseFromIstream(&file)) std::abort();
   return model;
 }
