@@ -8,8 +8,8 @@
 namespace nao::motion {
 namespace {
 
-// Attempts to get up before the robot asks for help. Chosen: each of the three get-up motions from
-// the belly is tried twice.
+// Attempts to get up before the robot asks for help. Chosen: each of the get-up motions from the
+// belly is tried, and rolls before them fail twice.
 constexpr int kMaxTries = 6;
 // Segments of one path. Chosen: twice the longest path with detours; more is a cycle.
 constexpr int kMaxSegments = 16;
@@ -35,6 +35,13 @@ constexpr double kNearPosture = 0.3;
 // Fraction of the peak torque with which a robot lies that could not get up. Chosen: its limbs do
 // not press against the floor, and yield to a person.
 constexpr double kLyingStiffness = 0.1;
+// Least duration of a transition's stage relative to the distance over the maximum speed. Chosen:
+// the motors' own limit. TargetLimiter clips the spline, whose targets are then up to a tenth of
+// the distance late at the keyframe, which the next one makes up for.
+constexpr double kTransitionDurationRatio = 1;
+// Time for which the targets wait at a keyframe until the direction of up is in its range, s.
+// Chosen: nao-trial get-up.
+constexpr double kGreatestDelay = 0.3;
 // Fraction of the progress that a transition counts for: what follows it is not known yet.
 constexpr double kTransitionProgress = 0.5;
 
@@ -164,7 +171,8 @@ void PosturePathMotion::play(const MotionContext& context, const KeyframeSequenc
                              const JointTargets& targets) {
   segment_ = Segment::kTransition;
   is_at_keyframe_ = false;
-  transition_ = {&sequence, KeyframePlayer(context.model, sequence, targets.position, 1.0)};
+  transition_ = {&sequence, KeyframePlayer(context.model, sequence, targets.position, 1.0,
+                                           kTransitionDurationRatio)};
   const bool is_damped =
       std::any_of(sequence.keyframes.begin(), sequence.keyframes.end(),
                   [](const Keyframe& keyframe) { return keyframe.ankle_damping > 0; });
@@ -272,24 +280,33 @@ bool PosturePathMotion::approach_again(const MotionContext& context, const Joint
 
 MotionGenerator::Phase PosturePathMotion::step_transition(const MotionContext& context,
                                                           JointTargets& targets) {
+  int stage = transition_.player.stage_at(time_);
+  const auto is_there = [&] { return body_state_in(context) == transition_.sequence->to; };
+  // The last pause ends as soon as the body is in the state to which the transition leads.
+  bool is_over = time_ >= transition_.player.duration() ||
+                 (time_ >= transition_.player.last_arrival() && is_there());
+  bool has_failed = false;
+  if (stage != transition_.stage || is_over) {
+    // At the end of each keyframe the direction of up must be in the keyframe's range. A body that
+    // is late, with weak motors, gets some time; without it in the range the transition ends before
+    // the robot works against the floor.
+    has_failed = !transition_.sequence->keyframes[transition_.stage].has_up(
+        context.state.torso_in_odometry.linear().row(2));
+    if (has_failed && transition_.sequence->to == kOnFeet &&
+        transition_.time_late < kGreatestDelay) {
+      transition_.time_late += context.dt;
+      time_ -= context.dt;
+      stage = transition_.stage;
+      is_over = has_failed = false;
+    } else {
+      transition_.time_late = 0;
+    }
+    transition_.stage = stage;
+  }
   transition_.player.sample(time_, targets.position, targets.stiffness);
-  const int stage = transition_.player.stage_at(time_);
   if (transition_.damping) {
     const double gain = transition_.sequence->keyframes[static_cast<size_t>(stage)].ankle_damping;
     transition_.damping->add_to(context.state, gain, context.dt, targets.position);
-  }
-  const auto is_there = [&] { return body_state_in(context) == transition_.sequence->to; };
-  // The last pause ends as soon as the body is in the state to which the transition leads.
-  const bool is_over = time_ >= transition_.player.duration() ||
-                       (time_ >= transition_.player.last_arrival() && is_there());
-  bool has_failed = false;
-  if (stage != transition_.stage || is_over) {
-    // At the end of each keyframe the direction of up must be in the keyframe's range: a roll that
-    // did not happen ends the transition at once, before the robot works against the floor.
-    const Keyframe& ended = transition_.sequence->keyframes[transition_.stage];
-    const Eigen::Vector3d up = context.state.torso_in_odometry.linear().row(2);
-    for (int axis = 0; axis < 3; ++axis) has_failed |= !ended.up[axis].has(up[axis]);
-    transition_.stage = stage;
   }
   if (!is_over && !has_failed) return Phase::kRunning;
   is_at_keyframe_ = is_over;

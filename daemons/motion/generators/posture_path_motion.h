@@ -63,6 +63,8 @@ class PosturePathMotion : public MotionGenerator {
     /** Of a transition with keyframes that damp. */
     std::optional<AnkleDamping> damping{};
     int stage = 0;
+    /** Time for which the targets have waited at the stage's end, s. */
+    double time_late = 0;
   };
 
   Phase step_resting(const MotionContext& context, JointTargets& targets);

@@ -38,7 +38,8 @@ KeyframeSequence mirrored(const RobotModel& model, const KeyframeSequence& seque
 }
 
 KeyframePlayer::KeyframePlayer(const RobotModel& model, const KeyframeSequence& sequence,
-                               const std::vector<double>& start, double speed) {
+                               const std::vector<double>& start, double speed,
+                               double min_duration_ratio) {
   const size_t num_motors = start.size();
   std::vector<double> last = start;
   double time = 0;
@@ -52,7 +53,7 @@ KeyframePlayer::KeyframePlayer(const RobotModel& model, const KeyframeSequence& 
       if (!std::isnan(keyframe.position[i])) stage.to[i] = keyframe.position[i];
       // No stage is faster than its slowest joint; all joints arrive together.
       const double distance = std::abs(stage.to[i] - stage.from[i]);
-      duration = std::max(duration, kMinDurationRatio * distance /
+      duration = std::max(duration, min_duration_ratio * distance /
                                         model.motor_joint(static_cast<int>(i)).max_velocity);
     }
     stage.stiffness = keyframe.stiffness;

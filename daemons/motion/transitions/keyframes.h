@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <limits>
 #include <string>
 #include <vector>
@@ -36,6 +37,10 @@ struct Keyframe {
   /** Ranges of the x, y and z components of the up direction in the torso frame at the end; outside
    * them the motion has failed. */
   Range up[3];
+  /** Whether a direction of up, in the torso frame, is in all three. */
+  bool has_up(const Eigen::Vector3d& direction) const {
+    return up[0].has(direction.x()) && up[1].has(direction.y()) && up[2].has(direction.z());
+  }
 };
 
 /** A motion that is kept as data: keyframes that lead from one state of the body to another. */
@@ -71,9 +76,11 @@ class KeyframePlayer {
   KeyframePlayer() = default;
 
   /** @param start  rad, (num_motors). @param speed  (0, 1]: divides the durations, which are
-   * extended where a motor could not turn fast enough. */
+   * extended where a motor could not turn fast enough.
+   * @param min_duration_ratio  As kMinDurationRatio; at least 1. */
   KeyframePlayer(const RobotModel& model, const KeyframeSequence& sequence,
-                 const std::vector<double>& start, double speed);
+                 const std::vector<double>& start, double speed,
+                 double min_duration_ratio = kMinDurationRatio);
 
   /** s. */
   double duration() const { return stages_.empty() ? 0.0 : stages_.back().end; }

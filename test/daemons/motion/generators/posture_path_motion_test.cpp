@@ -181,6 +181,33 @@ TEST_F(PosturePathMotionTest, AFailedRollDoesNotChangeTheGetUpMotionAfterIt) {
   EXPECT_EQ(least, 0);
 }
 
+TEST_F(PosturePathMotionTest, WaitsAtAKeyframeForABodyThatIsLate) {
+  const TransitionGraph graph = TransitionGraph::parse(nao_model(), R"(
+transitions:
+  - {name: up, from: belly, to: on-feet, keyframes: [
+      {duration: 0.5, joints: {HeadYaw: 0.3}, up: {z: [0.5, 1]}}, {duration: 0.5, joints: {HeadYaw: 0.6}}]}
+)");
+  const int head = nao_motor("HeadYaw");
+  for (const bool stands : {true, false}) {
+    lie();
+    motion_.emplace(graph, *nao_model().find_posture("StandInit"), 0.5);
+    motion_->start(robot_.context(), robot_.targets());
+    double greatest = 0;
+    const auto run_and_see = [&](double seconds) {
+      for (double time = 0; time < seconds; time += 0.01) {
+        step();
+        greatest = std::max(greatest, robot_.targets().position[head]);
+      }
+    };
+    // It rests for 0.1 s before the transition.
+    run_and_see(0.8);
+    EXPECT_NEAR(greatest, 0.3, 0.02);
+    if (stands) stand();
+    run_and_see(0.8);
+    EXPECT_NEAR(greatest, stands ? 0.6 : 0.3, 0.02);
+  }
+}
+
 TEST_F(PosturePathMotionTest, GivesUpAfterSixTries) {
   lie();
   start("StandInit");

@@ -82,6 +82,9 @@ TEST_F(KeyframePlayerTest, TakesLongerWhereAMotorWouldBeTooSlow) {
   const KeyframePlayer player = play({keyframe(0.01, start_[head_] + distance)});
   EXPECT_NEAR(player.duration(), 1.15 * distance / nao_model().motor_joint(head_).max_velocity,
               1e-9);
+  const KeyframePlayer fastest(
+      nao_model(), {"", "", "", {keyframe(0.01, start_[head_] + distance)}}, start_, 1.0, 1.0);
+  EXPECT_NEAR(fastest.duration(), distance / nao_model().motor_joint(head_).max_velocity, 1e-9);
 }
 
 TEST_F(KeyframePlayerTest, SetsStiffnessOnlyWhereAKeyframeDoes) {
