@@ -160,9 +160,11 @@ void PosturePathMotion::note_getting_up(const std::string& state) {
 }
 
 bool PosturePathMotion::must_rest(const MotionContext& context, const std::string& state) const {
-  // On its feet the robot need not wait. Between planned transitions a moving body may continue;
-  // any other lying body must have come to rest, since its state is not known before.
+  // On its feet the robot need not wait, in the air it must. Between planned transitions a moving
+  // body may continue; any other lying body must have come to rest, since its state is not known
+  // before.
   if (state == kOnFeet) return false;
+  if (state.empty()) return true;
   if (is_on_path_) return context.state.angular_velocity_torso.norm() > kContinueVelocity;
   return time_still_ < kStillTime;
 }

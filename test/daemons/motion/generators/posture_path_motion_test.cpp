@@ -97,6 +97,22 @@ TEST_F(PosturePathMotionTest, GetsUpAlongATransitionAndContinuesOnALine) {
   EXPECT_EQ(state.num_tries, 1);
 }
 
+TEST_F(PosturePathMotionTest, AMomentWithoutLoadOnTheFeetAfterTheGetUpDoesNotEndIt) {
+  lie();
+  start("StandInit");
+  while (motion_->can_be_replaced()) ASSERT_EQ(step(), Phase::kRunning);
+  for (int i = 0; i < 30; ++i) step();
+  stand();
+  // The transition ends on the feet, which the rising body then takes the load off.
+  while (!motion_->can_be_replaced()) ASSERT_EQ(step(), Phase::kRunning);
+  const std::vector<double> load = robot_.sensors().foot_force;
+  robot_.sensors().foot_force.assign(load.size(), 0.0);
+  robot_.measure();
+  EXPECT_EQ(run(0.2), Phase::kRunning);
+  robot_.sensors().foot_force = load;
+  EXPECT_EQ(run(10), Phase::kDone);
+}
+
 // Commands that the mode refuses would otherwise end it while it rests.
 TEST_F(PosturePathMotionTest, APostureThatTheGetUpReachedNeedsNoFurtherMotion) {
   const auto graph = TransitionGraph::parse(nao_model(), R"(
