@@ -40,9 +40,23 @@ class OpenCvNetwork : public PolicyNetwork {
   int find_num_inputs() {
     for (const cv::String& name : net_.getLayerNames()) {
       const cv::Ptr<cv::dnn::Layer> layer = net_.getLayer(net_.getLayerId(name));
-      if (layer->type == "InnerProduct" && !layer->blobs.empty()) return layer->blobs[0].cols;
+      if (layer->blobs.empty()) continue;
+      const cv::Mat& weights = layer->blobs[0];
+      if (layer->type == "InnerProduct") return weights.cols;
+      // OpenCV 4.9 and later, which does not tell whether the weights are transposed.
+      if (layer->type == "Gemm") return takes(weights.cols) ? weights.cols : weights.rows;
     }
     return 0;
+  }
+
+  bool takes(int num_inputs) {
+    try {
+      net_.setInput(cv::Mat::zeros(1, num_inputs, CV_32F));
+      net_.forward();
+      return true;
+    } catch (const cv::Exception&) {
+      return false;
+    }
   }
 
   bool has_memory() {

@@ -192,11 +192,15 @@ void write_mesh(const Mesh& mesh, const Color& color, const std::filesystem::pat
   scene.mRootNode->mNumMeshes = 1;
   scene.mRootNode->mMeshes = new unsigned[1]{0};
   scene.mNumMeshes = 1;
-  scene.mMeshes = new aiMesh* [1] { new aiMesh };
+  using MeshPointer = aiMesh*;
+  scene.mMeshes = new MeshPointer[1];
+  scene.mMeshes[0] = new aiMesh;
   scene.mMeshes[0]->mPrimitiveTypes = aiPrimitiveType_TRIANGLE;
   fill(*scene.mMeshes[0], mesh);
   scene.mNumMaterials = 1;
-  scene.mMaterials = new aiMaterial* [1] { new aiMaterial };
+  using MaterialPointer = aiMaterial*;
+  scene.mMaterials = new MaterialPointer[1];
+  scene.mMaterials[0] = new aiMaterial;
   set_color(*scene.mMaterials[0], color);
   write_scene(scene, target);
 }

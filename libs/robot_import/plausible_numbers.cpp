@@ -81,8 +81,9 @@ class Numbers {
     return nullptr;
   }
 
+  using JointNumber = double Joint::*;
   /** Replaces values above the greatest one, and one value below the least that all motors have. */
-  void repair_limits(const char* attribute, const char* unit, double Joint::*value, double least,
+  void repair_limits(const char* attribute, const char* unit, JointNumber value, double least,
                      double assumed, double greatest) {
     const auto value_of = [&](int motor) { return model_.motor_joint(motor).*value; };
     bool is_placeholder = value_of(0) < least;

@@ -11,8 +11,6 @@ import re
 import sys
 from pathlib import Path
 
-import matplotlib.pyplot as plt
-
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts"))
 from output_file import replace_file  # noqa: E402
 
@@ -32,6 +30,8 @@ def main():
         sys.exit(0 if "--help" in sys.argv else 2)
     with open(sys.argv[1], encoding="utf-8") as file:
         figures = json.load(file)
+    import matplotlib.pyplot as plt  # --help does without
+
     plt.rcParams.update({"svg.fonttype": "none", "svg.hashsalt": "nao"})  # text as text, and the same file each time
     drawing, both = plt.subplots(1, 2, figsize=(7.2, 2.6), layout="constrained")
     for axes, kind, title, label in ((both[0], "contacts", "One robot standing", "contacts with the floor"),

@@ -12,8 +12,6 @@ import subprocess
 import sys
 import tempfile
 
-import matplotlib.pyplot as plt
-
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "scripts"))
 from output_file import replace_file  # noqa: E402
 
@@ -41,6 +39,8 @@ def main():
     if not trial.exists():
         sys.exit(f"{trial} is missing: build it first (cmake --build --preset dev)")
     rows = read_trace(str(trial))
+    import matplotlib.pyplot as plt  # --help does without
+
     plt.rcParams.update({"svg.fonttype": "none", "svg.hashsalt": "nao"})  # text as text, and the same file each time
     figure, axes = plt.subplots(figsize=(4.6, 4.6), layout="constrained")
     for name, first, color in (("truth", "true", "#1f6fb4"), ("odometry", "odometry", "#d9822b")):

@@ -7,8 +7,9 @@
 namespace nao {
 namespace {
 
+using Setting = double RobotSettings::*;
 struct Rung {
-  double RobotSettings::*setting;
+  Setting setting;
   std::vector<double> values;
 };
 

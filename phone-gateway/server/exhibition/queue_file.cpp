@@ -17,9 +17,10 @@ constexpr size_t kMaxStateText = 100;
 constexpr double kMaxStateTime = 1e7;
 constexpr size_t kMaxVisitors = 2000;
 
+using Count = int ExhibitionCounts::*;
 struct CountField {
   const char* name;
-  int ExhibitionCounts::*value;
+  Count value;
 };
 
 constexpr CountField kCountFields[] = {

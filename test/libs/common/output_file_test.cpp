@@ -38,7 +38,10 @@ TEST_F(OutputFileTest, AppearsWhenItIsFinished) {
 }
 
 TEST_F(OutputFileTest, LeavesNothingIfItIsNotFinished) {
-  { OutputFile(file_).stream() << "half"; }
+  {
+    OutputFile file(file_);
+    file.stream() << "half";
+  }
   EXPECT_EQ(num_files(), 0u);
 }
 
@@ -71,7 +74,7 @@ TEST_F(OutputFileTest, FollowsLinksAndKeepsPermissions) {
   replace_file(link, "new");
   EXPECT_TRUE(std::filesystem::is_symlink(link));
   EXPECT_EQ(read_text(file_), "new");
-  struct stat status {};
+  struct stat status = {};
   ASSERT_EQ(stat(file_.c_str(), &status), 0);
   EXPECT_EQ(status.st_mode & 0777, 0600u);
 }

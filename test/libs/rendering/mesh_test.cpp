@@ -151,7 +151,8 @@ TEST(Mesh, SimplifiedShapeIgnoresColors) {
     ball.vertices[i].encoded_color = encode_color(Color(i % 2 == 0 ? 1 : 0, 0, 0, 1));
   }
   const Mesh shape = simplified_shape(ball, 0.002f);
-  EXPECT_LT(shape.indices.size(), simplified(ball, 0.002f).indices.size() / 2);
+  // Half with meshoptimizer 0.18, two thirds with 0.22.
+  EXPECT_LT(4 * shape.indices.size(), 3 * simplified(ball, 0.002f).indices.size());
   EXPECT_LT(largest_distance(ball, shape), 3 * 0.002f);
   EXPECT_LT(shape.vertices.size(), shape.indices.size() / 2);
 }

@@ -49,7 +49,7 @@ TEST(Invitations, TheFileIsForItsOwnerOnly) {
   const auto file = folder.path() / "state" / "relay.json";
   const std::string key = load_relay_access(file).key;
   EXPECT_EQ(load_relay_access(file).key, key);
-  struct stat status {};
+  struct stat status = {};
   ASSERT_EQ(stat(file.c_str(), &status), 0);
   EXPECT_EQ(status.st_mode & 0777, 0600u);
 }

@@ -53,8 +53,8 @@ TEST(SettingLadder, GivesTheBestWhenNothingHoldsOrTheTimeIsOver) {
   EXPECT_EQ(result.failure, "fell");
   EXPECT_LT(calls, 300) << "no settings are tried twice";
   calls = 0;
-  climb_ladder(
-      evaluate, [] { return true; }, result);
+  const auto is_late = [] { return true; };
+  climb_ladder(evaluate, is_late, result);
   EXPECT_EQ(calls, 1);
 }
 

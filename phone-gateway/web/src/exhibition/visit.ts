@@ -8,6 +8,7 @@ import type {Exhibition} from "../protocol/generated/remote_pb";
 import {keep, recall} from "../storage";
 import type {Store} from "../store";
 import {getLanguage} from "../text/texts";
+import {vibrate} from "../vibrate";
 import {setWords, tell} from "./exhibition_texts";
 import {challengeInWords, challengeTime, clock, driverInWords, waitInWords} from "./words";
 import css from "./visit.css?inline";
@@ -88,8 +89,8 @@ export class Visit {
     const {phase, isPaused, isResting} = exhibition;
     const isDriving = phase === Phase.DRIVING;
     const mayDrive = isDriving && !isPaused && !isResting;
-    if (isDriving && this.phase !== Phase.DRIVING) navigator.vibrate?.(kBeginPattern);
-    if (exhibition.isWarned && isDriving && !this.wasWarned) navigator.vibrate?.(kWarnPattern);
+    if (isDriving && this.phase !== Phase.DRIVING) vibrate(kBeginPattern);
+    if (exhibition.isWarned && isDriving && !this.wasWarned) vibrate(kWarnPattern);
     if (this.phase === Phase.DRIVING && !isDriving) this.letGo();
     this.phase = phase;
     this.wasWarned = exhibition.isWarned;
