@@ -203,10 +203,11 @@ void RefereeDaemon::subscribe() {
   bus_.subscribe<naolcm::match_command_t>(kMatchCommandChannel, Bus::Queue::kAll,
                                           [this](const auto& message) { handle(message); });
   for (const RobotOption& robot : options_.robots) {
+    const auto keep = [this, name = robot.name](const auto& state) {
+      plays_[name] = {state, clock_()};
+    };
     bus_.subscribe<naolcm::play_state_t>(RobotChannels(robot.name).play_state, Bus::Queue::kLatest,
-                                         [this, name = robot.name](const auto& state) {
-                                           plays_[name] = {state, clock_()};
-                                         });
+                                         keep);
     if (!game_controller_) continue;
     bus_.subscribe<naolcm::vision_state_t>(
         RobotChannels(robot.name).vision_state, Bus::Queue::kLatest,

@@ -21,9 +21,12 @@ struct NamedParameter {
 template <class Parameters>
 using ParameterTable = std::vector<NamedParameter<Parameters>>;
 
+template <class Parameters, class Group>
+using GroupMember = Group Parameters::*;
+
 /** Adds the parameters of a group that NAO_PARAMETER_GROUP() declares. */
 template <class Parameters, class Group>
-void add_group(const std::string& name, Group Parameters::*group,
+void add_group(const std::string& name, GroupMember<Parameters, Group> group,
                ParameterTable<Parameters>& table) {
   for (const auto& [key, number] : Group::numbers()) {
     table.push_back({name + "." + key, [group, number = number](Parameters& all) -> double& {
