@@ -26,6 +26,13 @@ constexpr double kGoldenRatioFraction = 0.6180339887;
  * (medians), and the gateway takes a tenth less processor time than with a phase for each. */
 constexpr uint32_t kClientsOfAPhase = 16;
 
+/** Calls use(image, rate) for each image that a client requests now. */
+template <class Use>
+void for_each_request(const ClientStreams& streams, double now, double poll_timeout, Use use) {
+  if (streams.subscription.image_rate > 0) use(streams.image(), streams.subscription.image_rate);
+  if (now - streams.last_poll < poll_timeout) use(streams.polled_image, kPolledImageRate);
+}
+
 }  // namespace
 
 void merge(const CameraRequest& request, std::vector<CameraRequest>& requests) {
@@ -187,24 +194,22 @@ void Streams::write_image(const CachedImage& cached, naoremote::Image& image, do
 std::vector<CameraRequest> Streams::camera_requests(double now) const {
   std::vector<CameraRequest> requests;
   sessions_.for_each([&](const ClientSession& session) {
-    const ClientStreams& streams = session.streams;
-    if (streams.subscription.image_rate > 0) {
-      merge({streams.image(), streams.subscription.image_rate}, requests);
-    }
-    if (now - streams.last_poll < limits_.poll_timeout) {
-      merge({streams.polled_image, kPolledImageRate}, requests);
-    }
+    for_each_request(session.streams, now, limits_.poll_timeout,
+                     [&](const ImageSelection& image, double rate) {
+                       merge({image, rate}, requests);
+                     });
   });
   return requests;
 }
 
 bool Streams::has_image_client(double now) const {
   return sessions_.has_any([&](const ClientSession& session) {
-    const ClientStreams& streams = session.streams;
-    return (streams.subscription.image_rate > 0 &&
-            streams.subscription.image.camera != kOverviewCamera) ||
-           (now - streams.last_poll < limits_.poll_timeout &&
-            streams.polled_image.camera != kOverviewCamera);
+    bool is_requested = false;
+    for_each_request(session.streams, now, limits_.poll_timeout,
+                     [&](const ImageSelection& image, double) {
+                       is_requested |= image.camera != kOverviewCamera;
+                     });
+    return is_requested;
   });
 }
 
