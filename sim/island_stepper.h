@@ -11,15 +11,15 @@
 #include "sim/engine.h"
 #include "sim/islands.h"
 #include "sim/moving_bodies.h"
+#include "sim/step_threads.h"
 #include "sim/world_options.h"
 
 namespace nao::sim {
 
 /** One time step of the bodies of an island, and the memory for it.
  *
- * Touches no body outside the island: different islands may be stepped at the same time, by cores
- * that exchange two cache lines at a time. */
-class alignas(128) IslandStepper {
+ * Touches no body outside the island: different islands may be stepped at the same time. */
+class alignas(StepThreads::kLine) IslandStepper {
  public:
   /** Input of a step besides the island. */
   struct Step {

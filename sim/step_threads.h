@@ -13,6 +13,9 @@ namespace nao::sim {
  * of them, and takes everything that the others do not take in time. */
 class StepThreads {
  public:
+  /** Bytes that cores exchange together: two cache lines of x86-64. */
+  static constexpr size_t kLine = 128;
+
   /** @param count  Number of threads, including the calling one; 1 or more. */
   explicit StepThreads(int count);
   ~StepThreads();
@@ -29,8 +32,6 @@ class StepThreads {
 
  private:
   using Call = void (*)(void*, int);
-  /** Bytes that cores exchange together: two cache lines of x86-64. */
-  static constexpr size_t kLine = 128;
   /** The items of a thread, i = thread, thread + threads, ...: the first one that nobody took in
    * the low 32 bits, the end of all items above. */
   struct alignas(kLine) Share {
