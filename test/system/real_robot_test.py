@@ -68,7 +68,7 @@ class RealRobot(unittest.TestCase):
         # A machine with other load delays joint commands, from which the robot may fall: one session of three is enough.
         sessions = []
         for seed in range(2, 5):
-            sessions.append(robot_drive.run_session(seed, duration=10, disturbances="moderate", is_real_time=True))
+            sessions.append(robot_drive.run_session(seed, duration=10, disturbances="real", is_real_time=True))
             if sessions[-1].fault == "" and sessions[-1].driven >= 10 and sessions[-1].walking > 0.4:
                 return
         self.fail(sessions)

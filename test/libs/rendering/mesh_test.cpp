@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <meshoptimizer.h>
 
 #include <Eigen/Geometry>
 #include <cmath>
@@ -151,8 +152,10 @@ TEST(Mesh, SimplifiedShapeIgnoresColors) {
     ball.vertices[i].encoded_color = encode_color(Color(i % 2 == 0 ? 1 : 0, 0, 0, 1));
   }
   const Mesh shape = simplified_shape(ball, 0.002f);
-  // Half with meshoptimizer 0.18, two thirds with 0.22.
-  EXPECT_LT(4 * shape.indices.size(), 3 * simplified(ball, 0.002f).indices.size());
+  // meshoptimizer 0.22 keeps more: two thirds were measured.
+  constexpr double kShare = MESHOPTIMIZER_VERSION < 190 ? 0.5 : 0.75;
+  EXPECT_LT(static_cast<double>(shape.indices.size()),
+            kShare * static_cast<double>(simplified(ball, 0.002f).indices.size()));
   EXPECT_LT(largest_distance(ball, shape), 3 * 0.002f);
   EXPECT_LT(shape.vertices.size(), shape.indices.size() / 2);
 }
