@@ -40,7 +40,7 @@ class PolicyMotion : public MotionGenerator {
   const PolicyRecord* policy_record() const override { return has_record_ ? &record_ : nullptr; }
 
  private:
-  /** In this order; while it fades, the policy's targets give way to its default angles. */
+  /** In this order; while it fades, the targets change from the policy's to its default angles. */
   enum class Stage { kStandingUp, kApproaching, kRunning, kFading, kReturning, kEnding };
 
   PolicyManifest::Kind kind() const { return policy_->manifest->kind; }
