@@ -25,14 +25,19 @@ float soft_shadow_distance(const RenderView& view) {
   return view.pixels_per_radian * kCasterError / kSoftShadowPixels;
 }
 
+std::vector<std::string> defines(bool with_shadow, std::vector<std::string> others = {}) {
+  if (with_shadow) others.emplace_back("WITH_SHADOW");
+  return others;
+}
+
 }  // namespace
 
 BodyPass::BodyPass(MeshStore& meshes, const DepthProgram& depth, bool with_shadow)
     : meshes_(meshes),
       depth_(depth),
-      near_program_("near solid", shaders::solid(with_shadow, true)),
-      far_program_("far solid", shaders::solid(with_shadow, false)),
-      ball_program_("ball", shaders::ball(with_shadow)),
+      near_program_({"lighting", "mesh", "solid"}, defines(with_shadow, {"SHADOW_AT_PIXELS"})),
+      far_program_({"lighting", "mesh", "solid"}, defines(with_shadow)),
+      ball_program_({"lighting", "mesh", "ball"}, defines(with_shadow)),
       ball_mesh_(meshes.add(make_sphere(1, Color::Ones(), kBallSides))) {}
 
 void BodyPass::set_surroundings(const SceneFile& scene) {

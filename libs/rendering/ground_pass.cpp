@@ -4,7 +4,6 @@
 
 #include "rendering/gl.h"
 #include "rendering/mesh_programs.h"
-#include "rendering/shaders.h"
 
 namespace nao {
 namespace {
@@ -68,20 +67,22 @@ int lowest_sky_row(const Eigen::Matrix4f& world_from_clip, const RenderView& vie
 
 }  // namespace
 
-GroundPass::Programs GroundPass::compile_both(const std::string& name,
-                                              shaders::Source (*source)(bool)) {
-  return {compile("shadowed " + name, source(true)), compile(name, source(false))};
+GroundPass::Programs GroundPass::compile_both(std::vector<std::string> parts,
+                                              const std::vector<std::string>& defines) {
+  parts.insert(parts.begin(), {"lighting", "haze"});
+  std::vector<std::string> with_shadow = defines;
+  with_shadow.emplace_back("WITH_SHADOW");
+  return {compile(parts, with_shadow), compile(parts, defines)};
 }
 
 GroundPass::GroundPass(float reach)
     : reach_(reach),
-      field_(compile_both("field", [](bool shadow) { return shaders::field(shadow, false); })),
-      worn_field_(
-          compile_both("worn field", [](bool shadow) { return shaders::field(shadow, true); })),
-      line_(compile_both("line", shaders::field_line)),
-      carpet_(compile_both("carpet", shaders::carpet)),
-      floor_(compile_both("floor", shaders::floor)),
-      sky_(compile("sky", shaders::sky())) {
+      field_(compile_both({"ground", "carpet_color", "field"})),
+      worn_field_(compile_both({"ground", "carpet_color", "field"}, {"WITH_WEAR"})),
+      line_(compile_both({"carpet_color", "field_line"})),
+      carpet_(compile_both({"carpet_color", "carpet"})),
+      floor_(compile_both({"ground", "floor"})),
+      sky_(compile({"sky"})) {
   const Eigen::Vector2f corner = Eigen::Vector2f::Constant(reach);
   ground_.emplace_back().box = {-corner, corner};
 }

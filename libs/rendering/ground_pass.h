@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "rendering/field_patches.h"
@@ -8,7 +9,6 @@
 #include "rendering/pixel_box.h"
 #include "rendering/render_statistics.h"
 #include "rendering/render_view.h"
-#include "rendering/shaders.h"
 #include "rendering/shadow_pass.h"
 #include "robot_model/scene_file.h"
 
@@ -36,7 +36,8 @@ class GroundPass {
     gl::ShaderProgram lit;
   };
 
-  static Programs compile_both(const std::string& name, shaders::Source (*source)(bool));
+  static Programs compile_both(std::vector<std::string> parts,
+                               const std::vector<std::string>& defines = {});
 
   void draw_patches(const RenderView& view, const ShadowPass& shadows,
                     RenderStatistics& statistics);

@@ -2,12 +2,10 @@
 
 #include "rendering/goal.h"
 #include "rendering/mesh_programs.h"
-#include "rendering/shaders.h"
 
 namespace nao {
 
-MarkingPass::MarkingPass()
-    : net_(compile("net", shaders::net())), plain_(compile("plain", shaders::plain())) {}
+MarkingPass::MarkingPass() : net_(compile({"net"})), plain_(compile({"plain"})) {}
 
 // The net is the same in every image; its vertices are computed once for a scene.
 void MarkingPass::set_surroundings(const SceneFile& scene) {

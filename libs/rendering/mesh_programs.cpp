@@ -1,6 +1,7 @@
 #include "rendering/mesh_programs.h"
 
 #include "rendering/shadow_pass.h"
+#include "shader_texts.h"
 
 namespace nao {
 namespace {
@@ -29,8 +30,13 @@ void draw_and_count(const MeshDraws& draws, const MeshDraws::Draw& draw,
 
 }  // namespace
 
-gl::ShaderProgram compile(const std::string& name, const shaders::Source& source) {
-  return {name, source.vertex, source.fragment};
+gl::ShaderProgram compile(const std::vector<std::string>& parts,
+                          const std::vector<std::string>& defines) {
+  std::string text;
+  for (const std::string& define : defines) text += "#define " + define + "\n";
+  for (const std::string& part : parts) text += kShaderTexts.at(part);
+  const std::string version = "#version 330 core\n";
+  return {parts.back(), version + "#define VERTEX\n" + text, version + text};
 }
 
 void use_lit(const gl::ShaderProgram& program, const RenderView& view, const ShadowPass& shadows) {
@@ -46,7 +52,7 @@ void use_lit(const gl::ShaderProgram& program, const RenderView& view, const Sha
   shadows.set_uniforms(program);
 }
 
-DepthProgram::DepthProgram() : program_(compile("depth", shaders::depth())) {}
+DepthProgram::DepthProgram() : program_(compile({"depth"})) {}
 
 void DepthProgram::draw(const MeshDraws& draws, const Eigen::Matrix4f& clip_from_world,
                         RenderStatistics& statistics) const {
@@ -57,9 +63,6 @@ void DepthProgram::draw(const MeshDraws& draws, const Eigen::Matrix4f& clip_from
     draw_and_count(draws, draw, statistics);
   }
 }
-
-LitProgram::LitProgram(const std::string& name, const shaders::Source& source)
-    : program_(compile(name, source)) {}
 
 // One use_lit() for all: only the matrices change from one to the next.
 void LitProgram::draw(const MeshDraws& draws, const RenderView& view, const ShadowPass& shadows,

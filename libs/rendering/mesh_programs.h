@@ -2,20 +2,22 @@
 
 #include <Eigen/Core>
 #include <string>
+#include <vector>
 
 #include "rendering/gl_objects.h"
 #include "rendering/mesh_draws.h"
 #include "rendering/render_statistics.h"
 #include "rendering/render_view.h"
 #include "rendering/scene.h"
-#include "rendering/shaders.h"
 
 namespace nao {
 
 class ShadowPass;
 
-/** Compiles a shader. @param name  For error messages. */
-gl::ShaderProgram compile(const std::string& name, const shaders::Source& source);
+/** Compiles a shader of shaders/. @param parts  Its files, in this order, without ending. They are
+ * read twice, the first time with VERTEX defined. @param defines  What else is defined. */
+gl::ShaderProgram compile(const std::vector<std::string>& parts,
+                          const std::vector<std::string>& defines = {});
 
 /** Shader that writes the depth of meshes and no color. */
 class DepthProgram {
@@ -32,7 +34,8 @@ class DepthProgram {
 /** Shader of lit meshes. */
 class LitProgram {
  public:
-  LitProgram(const std::string& name, const shaders::Source& source);
+  LitProgram(const std::vector<std::string>& parts, const std::vector<std::string>& defines)
+      : program_(compile(parts, defines)) {}
 
   void draw(const MeshDraws& draws, const RenderView& view, const ShadowPass& shadows,
             RenderStatistics& statistics) const;

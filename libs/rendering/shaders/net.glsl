@@ -1,11 +1,5 @@
-#include "rendering/shaders.h"
-
-#include "rendering/shader_parts.h"
-
-namespace nao::shaders {
-namespace {
-
-const char* const kNetVertex = R"(
+// Goal nets: quads whose strings cover a fraction of each pixel.
+#ifdef VERTEX
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec4 data;  // position on the net, m
 uniform mat4 clip_from_world;
@@ -14,9 +8,7 @@ void main() {
   on_net = data.xy;
   gl_Position = clip_from_world * vec4(position, 1.0);
 }
-)";
-
-const char* const kNetFragment = R"(
+#else
 in vec2 on_net;
 out vec4 screen;
 const float kMesh = 0.08;     // distance between strings, m
@@ -30,35 +22,4 @@ void main() {
   fraction = mix(fraction, vec2(kString / kMesh), clamp(f / kMesh * 2.0 - 0.5, 0.0, 1.0));
   screen = vec4(vec3(0.93), 0.9 * (1.0 - (1.0 - fraction.x) * (1.0 - fraction.y)));
 }
-)";
-
-const char* const kPlainVertex = R"(
-layout(location = 0) in vec3 position;
-layout(location = 1) in vec4 color;
-uniform mat4 clip_from_world;
-flat out vec4 flat_color;
-void main() {
-  flat_color = color;
-  gl_Position = clip_from_world * vec4(position, 1.0);
-}
-)";
-
-const char* const kPlainFragment = R"(
-flat in vec4 flat_color;
-out vec4 screen;
-void main() {
-  screen = vec4(sqrt(flat_color.rgb), flat_color.a);
-}
-)";
-
-}  // namespace
-
-Source net() {
-  return {std::string(kHeader) + kNetVertex, std::string(kHeader) + kNetFragment};
-}
-
-Source plain() {
-  return {std::string(kHeader) + kPlainVertex, std::string(kHeader) + kPlainFragment};
-}
-
-}  // namespace nao::shaders
+#endif

@@ -1,11 +1,8 @@
-#include "rendering/shader_parts.h"
-
-namespace nao::shaders {
-namespace {
-
-/** Lighting of all lit surfaces: one directional light, a weak one from the opposite side, and
- * ambient light of sky and ground; SceneAppearance has their intensities. */
-const char* const kLighting = R"(
+// Lighting of all lit surfaces: one directional light, a weak one from the opposite side, and
+// ambient light of sky and ground; SceneAppearance has their intensities. Colors are linear light;
+// encoded() is the last step.
+// WITH_SHADOW: the light is looked up in the shadow map.
+// 
 uniform vec3 eye_position;
 uniform vec3 light_direction;
 uniform mat4 shadow_from_world;
@@ -67,12 +64,3 @@ vec3 direct_part(vec3 albedo, vec3 normal, vec3 position, float gloss) {
 vec3 encoded(vec3 light) {
   return sqrt(min(light, vec3(1.0)));
 }
-)";
-
-}  // namespace
-
-std::string lit_header(bool with_shadow) {
-  return std::string(kHeader) + (with_shadow ? "#define WITH_SHADOW\n" : "") + kLighting;
-}
-
-}  // namespace nao::shaders
