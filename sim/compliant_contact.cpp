@@ -1,7 +1,6 @@
 #include "sim/compliant_contact.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "sim/contact_assembler.h"
 

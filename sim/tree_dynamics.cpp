@@ -1,8 +1,6 @@
 #include "sim/tree_dynamics.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <map>
 
 #include "sim/products.h"

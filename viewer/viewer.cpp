@@ -1,9 +1,7 @@
 #include "viewer/viewer.h"
 
 #include <imgui.h>
-#include <unistd.h>
 
-#include <cmath>
 #include <naolcm/camera_command_t.hpp>
 
 #include "backends/imgui_impl_opengl3.h"

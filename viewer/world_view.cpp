@@ -1,7 +1,6 @@
 #include "viewer/world_view.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "common/error.h"
 #include "messages/pose_message.h"

@@ -2,7 +2,6 @@
 
 #include <Eigen/Geometry>
 #include <optional>
-#include <string>
 
 #include "rendering/world_state.h"
 #include "robot_model/robot_description.h"

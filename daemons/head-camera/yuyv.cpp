@@ -1,7 +1,6 @@
 #include "daemons/head-camera/yuyv.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace nao::camera {
 namespace {

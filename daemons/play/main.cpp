@@ -1,5 +1,4 @@
 // nao-play: behaviors of the robot. See README.md.
-#include <cmath>
 #include <vector>
 
 #include "common/bus.h"

@@ -1,7 +1,5 @@
 #include "daemons/vision/line_points.h"
 
-#include <cmath>
-
 namespace nao::vision {
 namespace {
 

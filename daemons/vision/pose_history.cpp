@@ -1,7 +1,6 @@
 #include "daemons/vision/pose_history.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace nao::vision {
 namespace {

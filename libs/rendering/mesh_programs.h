@@ -8,7 +8,6 @@
 #include "rendering/mesh_draws.h"
 #include "rendering/render_statistics.h"
 #include "rendering/render_view.h"
-#include "rendering/scene.h"
 
 namespace nao {
 

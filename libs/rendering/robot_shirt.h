@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Geometry>
-#include <vector>
 
 #include "rendering/mesh.h"
 #include "rendering/scene.h"

@@ -1,9 +1,6 @@
 #include "rendering/shadow_pass.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
-#include <utility>
 
 #include "rendering/gl.h"
 

@@ -11,7 +11,6 @@
 
 #include "common/channels.h"
 #include "common/wall_clock.h"
-#include "tools/bench/deadline.h"
 #include "tools/bench/ports.h"
 
 namespace nao::bench {

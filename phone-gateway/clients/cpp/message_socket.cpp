@@ -1,6 +1,5 @@
 #include "phone-gateway/clients/cpp/message_socket.h"
 
-#include <fcntl.h>
 #include <netdb.h>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
