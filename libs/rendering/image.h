@@ -27,7 +27,4 @@ Image downsampled(const Image& image, int factor);
 /** @throws Error  if the file cannot be written. */
 void write_png(const std::filesystem::path& file, const Image& image);
 
-/** @throws Error  if the file cannot be read. */
-Image read_png(const std::filesystem::path& file);
-
 }  // namespace nao

@@ -11,10 +11,10 @@
 #include <string>
 
 #include "common/data_path.h"
-#include "rendering/image.h"
 #include "robot_model/robot_model.h"
 #include "test/daemons/head-camera/truth.h"
 #include "test/support/decimal_comma.h"
+#include "test/support/read_png.h"
 #include "test/support/temporary_folder.h"
 
 namespace nao::viewer {

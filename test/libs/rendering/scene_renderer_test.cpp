@@ -12,6 +12,7 @@
 #include "rendering/robot_shirt.h"
 #include "rendering/robot_visuals.h"
 #include "test/libs/rendering/offscreen.h"
+#include "test/support/read_png.h"
 #include "test/support/temporary_folder.h"
 
 namespace nao {

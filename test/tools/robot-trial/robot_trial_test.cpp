@@ -7,8 +7,8 @@
 #include <algorithm>
 
 #include "daemons/motion/walk/gait.h"
-#include "rendering/image.h"
 #include "robot_import/robot_import.h"
+#include "test/support/read_png.h"
 #include "test/support/temporary_folder.h"
 #include "test/support/test_biped.h"
 
