@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "message_reflection/message_layout.h"
 
@@ -15,6 +16,14 @@ namespace nao {
  * @return nullopt if the bytes are not a message of this type. */
 [[nodiscard]] std::optional<std::string> message_to_json(const MessageLayout& layout,
                                                          std::span<const uint8_t> message);
+
+/** The same of a decoded message. */
+template <class Message>
+std::string json_of(const Message& message) {
+  std::vector<uint8_t> bytes(static_cast<size_t>(message.getEncodedSize()));
+  message.encode(bytes.data(), 0, message.getEncodedSize());
+  return *message_to_json(*find_message_layout(Message::getTypeName()), bytes);
+}
 
 /** JSON Schema of message_to_json() for a type; the descriptions are the comments of the .lcm file,
  * with their units.

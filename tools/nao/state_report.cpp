@@ -14,6 +14,7 @@
 #include "common/event_loop.h"
 #include "common/json_writer.h"
 #include "common/wall_clock.h"
+#include "inspection/message_json.h"
 #include "messages/command.h"
 #include "messages/mode.h"
 #include "tools/nao/subcommand.h"
@@ -73,23 +74,7 @@ std::string to_text(const naolcm::robot_state_t& robot, const naolcm::motion_sta
 std::string to_json(const naolcm::robot_state_t& robot, const naolcm::motion_state_t& motion) {
   JsonWriter json;
   json.begin_object();
-  json.begin_object("robot_state");
-  json.add("utime", robot.utime);
-  json.add("tick", robot.tick);
-  json.begin_array("joint_names");
-  for (const std::string& name : robot.joint_names) json.add("", name);
-  json.end();
-  json.add("joint_position", robot.joint_position.data(), robot.num_joints);
-  json.add("joint_velocity", robot.joint_velocity.data(), robot.num_joints);
-  json.add("position_torso_in_odometry", robot.position_torso_in_odometry, 3);
-  json.add("orientation_torso_in_odometry", robot.orientation_torso_in_odometry, 4);
-  json.add("velocity_torso_in_heading", robot.velocity_torso_in_heading, 3);
-  json.add("angular_velocity_torso", robot.angular_velocity_torso, 3);
-  json.add("center_of_mass_in_odometry", robot.center_of_mass_in_odometry, 3);
-  json.add("center_of_pressure_in_odometry", robot.center_of_pressure_in_odometry, 2);
-  json.add("left_foot_force", robot.left_foot_force);
-  json.add("right_foot_force", robot.right_foot_force);
-  json.end();
+  json.add_json("robot_state", json_of(robot));
   json.begin_object("motion_state");
   json.add("utime", motion.utime);
   json.add("mode", std::string(to_string(static_cast<Mode>(motion.mode))));

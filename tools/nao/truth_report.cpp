@@ -11,8 +11,8 @@
 #include "common/bus.h"
 #include "common/channels.h"
 #include "common/command_line.h"
-#include "common/json_writer.h"
 #include "common/wall_clock.h"
+#include "inspection/message_json.h"
 #include "tools/nao/subcommand.h"
 #include "tools/nao/text_table.h"
 
@@ -49,49 +49,6 @@ std::string to_text(const naolcm::world_truth_t& truth) {
   return text;
 }
 
-std::string to_json(const naolcm::world_truth_t& truth) {
-  JsonWriter json;
-  json.begin_object();
-  json.add("utime", truth.utime);
-  json.add("tick", truth.tick);
-  json.add("scene", truth.scene);
-  json.add("is_paused", truth.is_paused != 0);
-  json.add("real_time_factor", truth.real_time_factor);
-  json.add("pace", truth.pace);
-  json.add("num_late_commands", truth.num_late_commands);
-  json.add("num_late_ticks", truth.num_late_ticks);
-  json.begin_array("robots");
-  for (const naolcm::robot_truth_t& robot : truth.robots) {
-    json.begin_object();
-    json.add("robot", robot.robot);
-    json.add("model", robot.model);
-    json.add("team", robot.team);
-    json.add("number", robot.number);
-    json.add("position_torso_in_world", robot.position_torso_in_world, 3);
-    json.add("orientation_torso_in_world", robot.orientation_torso_in_world, 4);
-    json.add("velocity_torso_in_world", robot.velocity_torso_in_world, 3);
-    json.add("center_of_mass_in_world", robot.center_of_mass_in_world, 3);
-    json.begin_array("joint_names");
-    for (const std::string& name : robot.joint_names) json.add("", name);
-    json.end();
-    json.add("joint_position", robot.joint_position.data(), robot.num_joints);
-    json.add("joint_torque", robot.joint_torque.data(), robot.num_joints);
-    json.begin_array("light_names");
-    for (const std::string& name : robot.light_names) json.add("", name);
-    json.end();
-    json.begin_array("light_rgb");
-    for (const std::vector<double>& rgb : robot.light_rgb) json.add("", rgb.data(), 3);
-    json.end();
-    json.end();
-  }
-  json.end();
-  json.add("has_ball", truth.has_ball != 0);
-  json.add("position_ball_in_world", truth.position_ball_in_world, 3);
-  json.add("velocity_ball_in_world", truth.velocity_ball_in_world, 3);
-  json.add("num_contacts", truth.num_contacts);
-  return json.take() + "\n";
-}
-
 int run_show(const CommonOptions& common, bool as_json) {
   Bus bus(common.lcm_url);
   std::optional<naolcm::world_truth_t> truth;
@@ -104,7 +61,7 @@ int run_show(const CommonOptions& common, bool as_json) {
                  common.lcm_url.c_str());
     return 1;
   }
-  std::fputs((as_json ? to_json(*truth) : to_text(*truth)).c_str(), stdout);
+  std::fputs((as_json ? json_of(*truth) + "\n" : to_text(*truth)).c_str(), stdout);
   return 0;
 }
 
