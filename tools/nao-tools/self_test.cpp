@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <limits>
 
 #include "common/constants.h"
@@ -57,6 +58,15 @@ constexpr int kLeastBytes = 2000;
 
 std::string degrees(double angle) {
   return format_number(angle / kDegree, 1);
+}
+
+/** @param faults  What is wrong, and whether it is so: the first one that holds counts. */
+SelfTestFinding judge(const std::string& item, const std::string& measured,
+                      std::initializer_list<std::pair<bool, std::string>> faults) {
+  for (const auto& [holds, text] : faults) {
+    if (holds) return {item, SelfTestFinding::Verdict::kFault, text};
+  }
+  return {item, SelfTestFinding::Verdict::kOk, measured};
 }
 
 }  // namespace
@@ -219,7 +229,6 @@ bool SelfTest::is_loaded_leg(int motor) const {
 SelfTestFinding SelfTest::judge_joint() const {
   const auto index = static_cast<size_t>(motor_);
   const Joint& joint = model_.motor_joint(motor_);
-  SelfTestFinding finding{"joint " + joint.name, SelfTestFinding::Verdict::kFault, ""};
   const double commanded = direction_ * (is_opening_[index] ? kOpeningChange : kChange);
   // Fraction of the commanded change that the joint has moved.
   const double moved = (after_.position[index] - before_.position[index]) / commanded;
@@ -245,32 +254,26 @@ SelfTestFinding SelfTest::judge_joint() const {
     }
   }
   const int8_t status = motors_ && index < motors_->status.size() ? motors_->status[index] : 0;
-  if (!std::isfinite(moved)) {
-    finding.text = "the encoder gives no number";
-  } else if (std::abs(moved) < kStill && other != index && other_moved > kOtherJoint * kChange) {
-    finding.text =
-        "does not move; " + model_.motor_joint(static_cast<int>(other)).name + " moves instead";
-  } else if (std::abs(moved) < kStill) {
-    finding.text = "does not move: " + measured;
-    if (motors_ && greatest_current_ == 0) finding.text += "; the motor draws no current";
-  } else if (moved < 0) {
-    finding.text = "moves the wrong way: " + measured;
-  } else if (std::abs(moved - 1) > (is_loaded_leg(motor_) ? kLoadedTolerance : kTolerance)) {
-    finding.text = measured;
-  } else if (status == naolcm::body_state_t::JOINT_STATUS_DEAD) {
-    finding.text = "the motor does not answer: " + measured;
-  } else if (status != naolcm::body_state_t::JOINT_STATUS_OK) {
-    finding.text = "the motor is hot or limited: " + measured;
-  } else {
-    finding.verdict = SelfTestFinding::Verdict::kOk;
-    finding.text = measured;
-  }
-  return finding;
+  const bool is_still = std::abs(moved) < kStill;
+  const bool is_without_current = motors_ && greatest_current_ == 0;
+  const double tolerance = is_loaded_leg(motor_) ? kLoadedTolerance : kTolerance;
+  return judge(
+      "joint " + joint.name, measured,
+      {{!std::isfinite(moved), "the encoder gives no number"},
+       {is_still && other != index && other_moved > kOtherJoint * kChange,
+        "does not move; " + model_.motor_joint(static_cast<int>(other)).name + " moves instead"},
+       {is_still,
+        "does not move: " + measured + (is_without_current ? "; the motor draws no current" : "")},
+       {moved < 0, "moves the wrong way: " + measured},
+       {std::abs(moved - 1) > tolerance, measured},
+       {status == naolcm::body_state_t::JOINT_STATUS_DEAD,
+        "the motor does not answer: " + measured},
+       {status != naolcm::body_state_t::JOINT_STATUS_OK,
+        "the motor is hot or limited: " + measured}});
 }
 
 // At rest the specific force is gravity's reaction: upward, 9.81 m/s^2.
 SelfTestFinding SelfTest::judge_accelerometer() const {
-  SelfTestFinding finding{"accelerometer", SelfTestFinding::Verdict::kFault, ""};
   const double size = rest_.accelerometer.norm();
   const double variance = rest_.accelerometer_square - rest_.accelerometer.squaredNorm();
   const double noise = std::sqrt(std::max(0.0, variance));
@@ -279,39 +282,24 @@ SelfTestFinding SelfTest::judge_accelerometer() const {
   const std::string measured = "measures " + format_number(size, 2) + " m/s^2, deviation " +
                                format_number(noise, 2) + ", " + degrees(angle) +
                                " degrees from the orientation's vertical";
-  if (!rest_.accelerometer.allFinite() || size == 0) {
-    finding.text = "gives no numbers";
-  } else if (std::abs(size - kGravity) > kGravityTolerance) {
-    finding.text = "does not measure gravity: " + measured;
-  } else if (!(angle <= kTiltTolerance)) {
-    finding.text = "disagrees with the orientation: " + measured;
-  } else if (noise > kAccelerometerNoise) {
-    finding.text = "is not at rest: " + measured;
-  } else {
-    finding.verdict = SelfTestFinding::Verdict::kOk;
-    finding.text = measured;
-  }
-  return finding;
+  return judge(
+      "accelerometer", measured,
+      {{!rest_.accelerometer.allFinite() || size == 0, "gives no numbers"},
+       {std::abs(size - kGravity) > kGravityTolerance, "does not measure gravity: " + measured},
+       {!(angle <= kTiltTolerance), "disagrees with the orientation: " + measured},
+       {noise > kAccelerometerNoise, "is not at rest: " + measured}});
 }
 
 SelfTestFinding SelfTest::judge_gyroscope() const {
-  SelfTestFinding finding{"gyroscope", SelfTestFinding::Verdict::kFault, ""};
   const double offset = rest_.gyroscope.norm();
   const double noise =
       std::sqrt(std::max(0.0, rest_.gyroscope_square - rest_.gyroscope.squaredNorm()));
   const std::string measured =
       "offset " + degrees(offset) + ", deviation " + degrees(noise) + " degrees/s";
-  if (!rest_.gyroscope.allFinite()) {
-    finding.text = "gives no numbers";
-  } else if (offset > kGyroscopeOffset) {
-    finding.text = "is off at rest, restart the robot: " + measured;
-  } else if (noise > kGyroscopeNoise) {
-    finding.text = "is not at rest: " + measured;
-  } else {
-    finding.verdict = SelfTestFinding::Verdict::kOk;
-    finding.text = measured;
-  }
-  return finding;
+  return judge("gyroscope", measured,
+               {{!rest_.gyroscope.allFinite(), "gives no numbers"},
+                {offset > kGyroscopeOffset, "is off at rest, restart the robot: " + measured},
+                {noise > kGyroscopeNoise, "is not at rest: " + measured}});
 }
 
 void SelfTest::judge_feet(std::vector<SelfTestFinding>& findings) const {
@@ -349,21 +337,16 @@ void SelfTest::judge_feet(std::vector<SelfTestFinding>& findings) const {
 }
 
 SelfTestFinding SelfTest::judge_camera(const std::string& camera) const {
-  SelfTestFinding finding{"camera " + camera, SelfTestFinding::Verdict::kFault, "sends no images"};
   const auto found = images_.find(camera);
-  if (found == images_.end()) return finding;
+  if (found == images_.end()) return judge("camera " + camera, "", {{true, "sends no images"}});
   const auto& [count, smallest] = found->second;
   const double rate = count / std::max(total_time_, kRestTime);
-  finding.text = "sent " + std::to_string(count) + " images, " + format_number(rate, 1) +
-                 " a second, of " + format_number(smallest / 1e3, 1) + " kB or more";
-  if (smallest < kLeastBytes) {
-    finding.text = "shows nothing: " + finding.text;
-  } else if (rate < kLeastRate) {
-    finding.text = "is slow: " + finding.text;
-  } else {
-    finding.verdict = SelfTestFinding::Verdict::kOk;
-  }
-  return finding;
+  const std::string measured = "sent " + std::to_string(count) + " images, " +
+                               format_number(rate, 1) + " a second, of " +
+                               format_number(smallest / 1e3, 1) + " kB or more";
+  return judge("camera " + camera, measured,
+               {{smallest < kLeastBytes, "shows nothing: " + measured},
+                {rate < kLeastRate, "is slow: " + measured}});
 }
 
 std::vector<SelfTestFinding> SelfTest::findings() const {
