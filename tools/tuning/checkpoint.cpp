@@ -2,47 +2,36 @@
 
 #include <fmt/core.h>
 
+#include <nlohmann/json.hpp>
+
 #include "common/error.h"
-#include "common/json_writer.h"
-#include "common/yaml_entry.h"
+#include "common/json_text.h"
 
 namespace nao {
+
+using Json = nlohmann::json;
+
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Checkpoint, settings, costs, mean)
 
 // The costs of all generations, with which the search is repeated on resume (see replay());
 // candidates need not be stored.
 std::string Checkpoint::to_text() const {
-  const auto add = [](JsonWriter& json, const std::string& key, const std::vector<double>& list) {
-    json.add(key, list.data(), static_cast<int>(list.size()));
-  };
-  JsonWriter json;
-  json.begin_object();
-  json.begin_object("settings");
-  for (const auto& [name, value] : settings) json.add(name, value);
-  json.end();
-  json.begin_array("costs");
-  for (const std::vector<double>& generation : costs) add(json, "", generation);
-  json.end();
-  add(json, "mean", mean);
-  return json.take() + "\n";
+  // Names of files may be any bytes.
+  return Json(*this).dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 Checkpoint Checkpoint::parse(const std::string& text, const std::string& name) {
-  // JSON is a subset of YAML.
-  const auto whole = YamlEntry::parse<ConfigError>(text, name);
-  whole.allow_only({"settings", "costs", "mean"});
-  Checkpoint checkpoint;
-  for (const auto& [key, value] : whole.at("settings").entries()) {
-    checkpoint.settings[key] = value.text();
-  }
-  for (const YamlEntry& generation : whole.at("costs").items()) {
-    checkpoint.costs.push_back(generation.numbers());
-    // A damaged file must not silently lead to another search.
-    if (checkpoint.costs.back().size() != checkpoint.costs.front().size()) {
-      generation.fail("must have as many costs as the first generation");
+  try {
+    auto checkpoint = parse_json(text).get<Checkpoint>();
+    for (const std::vector<double>& generation : checkpoint.costs) {
+      // A damaged file must not silently lead to another search.
+      if (generation.size() == checkpoint.costs.front().size()) continue;
+      throw ConfigError(name + ": each generation must have as many costs as the first");
     }
+    return checkpoint;
+  } catch (const Json::exception& error) {
+    throw ConfigError(name + ": " + error.what());
   }
-  checkpoint.mean = whole.at("mean").numbers();
-  return checkpoint;
 }
 
 // A search that continues with other settings would be neither of the two.

@@ -26,11 +26,11 @@ enum Tag { kTask = 1, kOutcome = 2, kEnd = 3 };
 struct Message {
   int rank = 0;
   int tag = 0;
-  Words words;
+  Bytes bytes;
 };
 
-void send(int rank, Tag tag, const Words& words) {
-  MPI_Send(words.data(), static_cast<int>(words.size()), MPI_UINT64_T, rank, tag, MPI_COMM_WORLD);
+void send(int rank, Tag tag, const Bytes& bytes) {
+  MPI_Send(bytes.data(), static_cast<int>(bytes.size()), MPI_BYTE, rank, tag, MPI_COMM_WORLD);
 }
 
 // The next message from any process, without waiting for one.
@@ -40,12 +40,12 @@ std::optional<Message> receive() {
   MPI_Iprobe(MPI_ANY_SOURCE, MPI_ANY_TAG, MPI_COMM_WORLD, &is_there, &status);
   if (is_there == 0) return std::nullopt;
   int size = 0;
-  MPI_Get_count(&status, MPI_UINT64_T, &size);
+  MPI_Get_count(&status, MPI_BYTE, &size);
   Message message;
   message.rank = status.MPI_SOURCE;
   message.tag = status.MPI_TAG;
-  message.words.resize(static_cast<size_t>(size));
-  MPI_Recv(message.words.data(), size, MPI_UINT64_T, message.rank, message.tag, MPI_COMM_WORLD,
+  message.bytes.resize(static_cast<size_t>(size));
+  MPI_Recv(message.bytes.data(), size, MPI_BYTE, message.rank, message.tag, MPI_COMM_WORLD,
            MPI_STATUS_IGNORE);
   return message;
 }
@@ -66,7 +66,7 @@ void MpiEvaluator::gather_slots(const std::string& identity) {
   // Threads of each process and a digest of its settings: processes with other files would give
   // other results for the same task.
   const uint64_t own[2] = {static_cast<uint64_t>(threads_.count()), digest(identity)};
-  Words all(2 * static_cast<size_t>(num_processes_));
+  std::vector<uint64_t> all(2 * static_cast<size_t>(num_processes_));
   MPI_Gather(own, 2, MPI_UINT64_T, all.data(), 2, MPI_UINT64_T, 0, MPI_COMM_WORLD);
   if (!is_first()) return;
   for (size_t rank = 0; rank < static_cast<size_t>(num_processes_); ++rank) {
@@ -95,12 +95,12 @@ void MpiEvaluator::end_processes() {
 // Loop of all processes except the first, until kEnd comes.
 void MpiEvaluator::serve() {
   for (;;) {
-    while (const auto outcome = threads_.poll()) send(0, kOutcome, encode_outcome(*outcome));
+    while (const auto outcome = threads_.poll()) send(0, kOutcome, encode(*outcome));
     const auto message = receive();
     if (!message) {
       std::this_thread::sleep_for(kPollInterval);
     } else if (message->tag == kTask) {
-      threads_.submit(decode_task(message->words));
+      threads_.submit(decode<IndexedTask>(message->bytes));
     } else {
       return;
     }
@@ -123,12 +123,12 @@ std::vector<Outcome> MpiEvaluator::evaluate(const std::vector<Task>& tasks) {
         if (rank == 0) {
           threads_.submit(task);
         } else {
-          send(static_cast<int>(rank), kTask, encode_task(task));
+          send(static_cast<int>(rank), kTask, encode(task));
         }
       }
     }
     const auto message = receive();
-    if (message) batch.finish(static_cast<size_t>(message->rank), decode_outcome(message->words));
+    if (message) batch.finish(static_cast<size_t>(message->rank), decode<Outcome>(message->bytes));
     const auto outcome = threads_.poll();
     if (outcome) batch.finish(0, *outcome);
     if (!message && !outcome) std::this_thread::sleep_for(kPollInterval);

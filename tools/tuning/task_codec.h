@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -7,9 +8,9 @@
 
 namespace nao {
 
-/** Messages between the processes of a search are lists of 64-bit words; a floating-point number is
- * sent as its bits, so that it arrives unchanged. */
-using Words = std::vector<uint64_t>;
+/** A message between the processes of a search: CBOR (RFC 8949), in which a number arrives
+ * unchanged. */
+using Bytes = std::vector<uint8_t>;
 
 /** A task and its index in the batch. */
 struct IndexedTask {
@@ -19,12 +20,12 @@ struct IndexedTask {
   bool operator==(const IndexedTask&) const = default;
 };
 
-Words encode_task(const IndexedTask& task);
-/** @throws Error  if the words are not a task. */
-IndexedTask decode_task(const Words& words);
+/** @tparam Message  IndexedTask or Outcome. */
+template <class Message>
+Bytes encode(const Message& message);
 
-Words encode_outcome(const Outcome& outcome);
-/** @throws Error  if the words are not an outcome. */
-Outcome decode_outcome(const Words& words);
+/** @throws Error  if the bytes are not a message of this kind. */
+template <class Message>
+Message decode(const Bytes& bytes);
 
 }  // namespace nao
