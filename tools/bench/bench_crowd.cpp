@@ -26,6 +26,7 @@
 #include "common/scheduling.h"
 #include "common/wall_clock.h"
 #include "phone-gateway/protocol/framing.h"
+#include "tools/bench/deadline.h"
 #include "tools/bench/ports.h"
 #include "tools/bench/run_benchmark.h"
 #include "tools/bench/wire_client.h"

@@ -11,6 +11,7 @@
 
 #include "common/channels.h"
 #include "common/wall_clock.h"
+#include "tools/bench/deadline.h"
 #include "tools/bench/ports.h"
 
 namespace nao::bench {

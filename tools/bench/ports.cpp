@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "common/wall_clock.h"
+#include "tools/bench/deadline.h"
 
 namespace nao::bench {
 uint16_t wait_for_port(const ChildProcess& program, const std::string& label) {
