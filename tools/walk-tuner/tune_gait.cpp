@@ -52,6 +52,7 @@ const std::vector<std::string> kNotTuned = {
     "standing.ankle_pitch",
     "standing.hip_pitch",
     "standing.least_rate",
+    "standing.step_margin",
     "kick.ball_distance",
     "kick.swing_reach",
     "kick.swing_lift",
