@@ -123,6 +123,7 @@ void MotionCore::move(double dt) {
   const JointTargets last = targets_;
   choose_first_motion(dt);
   handle_falls(dt);
+  handle_push();
   run_motions(dt);
   gains_.limit(dt, targets_);
   follow_limp_joints();
@@ -171,6 +172,14 @@ void MotionCore::handle_falls(double dt) {
     case FallSupervisor::Action::kNone:
       break;
   }
+}
+
+void MotionCore::handle_push() {
+  if (!has_first_motion_ || !arbiter_.is_idle() || falls_.has_fallen() || is_relaxed()) return;
+  if (!standing_ || !standing_->must_step(estimator_.state())) return;
+  auto steps = factory_.make_push_recovery(context(0), targets_);
+  if (steps == nullptr) return;
+  arbiter_.start({std::move(steps), std::nullopt, "push-recovery"}, context(0), targets_);
 }
 
 void MotionCore::run_motions(double dt) {

@@ -97,6 +97,9 @@ class MotionCore {
   void move(double dt);
   void choose_first_motion(double dt);
   void handle_falls(double dt);
+  /** Begins to step if a robot that only stands was pushed so that it cannot come to rest in place.
+   */
+  void handle_push();
   void run_motions(double dt);
   /** Targets of limp joints follow their angles, so that a limb that is moved by hand stays where
    * it is when it becomes stiff. */

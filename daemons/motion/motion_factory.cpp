@@ -164,6 +164,14 @@ std::unique_ptr<MotionGenerator> MotionFactory::make_get_up(int num_tries) const
                                              num_tries);
 }
 
+std::unique_ptr<MotionGenerator> MotionFactory::make_push_recovery(const MotionContext& context,
+                                                                   const JointTargets& targets) {
+  if (find_walk_obstacle({context, targets}) || !is_walking_stance(*model_, targets.position)) {
+    return nullptr;
+  }
+  return std::make_unique<WalkMotion>(*model_, *gait_, make_stand_path(), std::nullopt);
+}
+
 std::optional<StandingBalance> MotionFactory::make_standing_balance() const {
   if (!gait_) return std::nullopt;
   return StandingBalance(gait_->standing, *legs_);

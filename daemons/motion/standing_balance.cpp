@@ -1,8 +1,36 @@
 #include "daemons/motion/standing_balance.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include "daemons/motion/falls/fall_monitor.h"
+#include "kinematics/pose2.h"
 
 namespace nao::motion {
+namespace {
+
+// Velocity of the center of mass below which no push makes a robot step, m/s. Chosen: half of the
+// least impulse for each kg that throws over a robot which does not step (nao-trial push-course).
+constexpr double kPushVelocity = 0.2;
+
+}  // namespace
+
+bool StandingBalance::must_step(const RobotState& state) const {
+  const Eigen::Vector2d velocity = state.center_of_mass_velocity_in_odometry.head<2>();
+  if (velocity.norm() < kPushVelocity) return false;
+  const double heading = heading_of(state.torso_in_odometry.linear());
+  const Eigen::Vector2d ahead(std::cos(heading), std::sin(heading));
+  const double capture_point = ahead.dot(calc_capture_point(state));
+  // A robot that is lifted has no support polygon.
+  const auto is_beyond = [&](double sign) {
+    const auto is_farther = [&](const Eigen::Vector2d& corner) {
+      return sign * (ahead.dot(corner) - capture_point) >= gains_->step_margin;
+    };
+    const auto& corners = state.support_polygon_in_odometry;
+    return !corners.empty() && std::none_of(corners.begin(), corners.end(), is_farther);
+  };
+  return is_beyond(1) || is_beyond(-1);
+}
 
 void StandingBalance::add_to(const RobotState& state, std::vector<double>& position) const {
   const double measured = state.angular_velocity_torso.y();

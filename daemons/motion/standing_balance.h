@@ -19,6 +19,11 @@ class StandingBalance {
   StandingBalance(const Gait::Standing& gains, const LegKinematics& legs)
       : gains_(&gains), legs_(&legs) {}
 
+  /** Whether a robot on its feet was pushed ahead or back so that it cannot come to rest without a
+   * step. To the side it withstands more on both feet: the foot that would step outward carries it.
+   */
+  bool must_step(const RobotState& state) const;
+
   /** Adds the joint angles to the targets of a standing robot. @param position  rad, (num_motors).
    */
   void add_to(const RobotState& state, std::vector<double>& position) const;

@@ -157,8 +157,10 @@ int main(int argc, char** argv) {
       "Disturbances to draw for each robot: none, default, moderate, real, or entries of "
       "real");
   app.add_option("--push", options.push,
-                 "Greatest impulse of pushes about every four seconds, N s for each kg")
+                 "Greatest impulse of pushes about every three seconds, N s for each kg")
       ->range(0.0, 10.0);
+  app.add_option("--rest", options.rest_share, "Share of the episodes with velocity 0")
+      ->range(0.0, 1.0);
   app.add_option("--episode", options.episode_time, "Longest episode, s")->range(1.0, 1000.0);
   app.add_option("--command", command,
                  "Velocity VX VY WZ of all episodes, m/s and rad/s, instead of drawn ones")

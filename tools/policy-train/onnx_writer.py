@@ -1,4 +1,4 @@
-"""Writes a network of fully connected layers with ELU between them as an ONNX file, as torch.onnx.export names and orders it.
+"""Writes, and reads again, a network of fully connected layers with ELU between them as an ONNX file, as torch.onnx.export names and orders it.
 
 Only what such a file needs of the format (https://github.com/onnx/onnx, onnx.proto3): messages are fields of a number, a wire
 type (0: integer, 2: bytes) and a value.
@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import sys
 from pathlib import Path
-from typing import Iterable, Sequence
+from typing import Iterable, Iterator, Sequence
 
 import numpy as np
 
@@ -68,3 +68,40 @@ def write_mlp(file: Path, layers: Sequence[tuple[np.ndarray, np.ndarray]]) -> No
     graph += data(2, "main_graph") + tensors
     graph += data(11, value_info("obs", layers[0][0].shape[1])) + data(12, value_info("actions", layers[-1][0].shape[0]))
     replace_file(file, number(1, 7) + data(2, "nao-remote") + data(7, graph) + data(8, data(1, "") + number(2, OPSET)))
+
+
+def fields(message: bytes) -> Iterator[tuple[int, int | bytes]]:
+    """@return Number and value of each field of a message that this module wrote."""
+    at = 0
+
+    def next_varint() -> int:
+        nonlocal at
+        value = shift = 0
+        while True:
+            byte = message[at]
+            at += 1
+            value |= (byte & 0x7F) << shift
+            shift += 7
+            if byte < 0x80:
+                return value
+
+    while at < len(message):
+        key = next_varint()
+        value: int | bytes = next_varint()
+        if key & 7 == 2:
+            size = int(value)
+            value, at = message[at:at + size], at + size
+        yield key >> 3, value
+
+
+def read_mlp(file: Path) -> list[tuple[np.ndarray, np.ndarray]]:
+    """@return Layers, as write_mlp() took them."""
+    graph = next(value for field, value in fields(file.read_bytes()) if field == 7)
+    arrays = []
+    for field, value in fields(graph):
+        if field == 5:
+            tensor_fields = list(fields(value))
+            shape = [size for number, size in tensor_fields if number == 1]
+            raw = next(content for number, content in tensor_fields if number == 9)
+            arrays.append(np.frombuffer(raw, "<f4").reshape(shape).copy())
+    return list(zip(arrays[::2], arrays[1::2]))

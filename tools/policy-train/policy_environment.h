@@ -28,9 +28,11 @@ struct EnvironmentOptions {
   /** Longest episode, and mean time between two commanded velocities, s. */
   double episode_time = 20;
   double command_time = 5;
-  /** Greatest horizontal impulse that hits the torso about every four seconds, N s for each kg of
-   * the robot. */
+  /** Greatest horizontal impulse that hits the torso about every three seconds, N s for each kg of
+   * the robot. Those of a robot begin small, and grow with each episode without a fall. */
   double push = 0;
+  /** Share of the episodes with velocity 0 throughout. */
+  double rest_share = 0;
   /** Greatest difference of each moved joint from its default angle at the start, rad. Chosen. */
   double start_spread = 0.05;
   /** m/s, m/s, rad/s; nothing: drawn from the manifest's ranges and reached as in nao-motion. */
@@ -81,6 +83,10 @@ class PolicyEnvironment {
 
   EnvironmentOptions options_;
   Random random_;
+  /** Greatest impulse of a push at present, N s/kg. */
+  double push_;
+  /** The velocity is 0 throughout this episode. */
+  bool is_resting_ = false;
   std::unique_ptr<sim::World> world_;
   ObservationBuilder builder_;
   PolicyInput input_;

@@ -31,9 +31,11 @@ from torch import nn
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 from batch import Batch  # noqa: E402
-from onnx_writer import write_mlp  # noqa: E402
+from onnx_writer import read_mlp, write_mlp  # noqa: E402
 
 CHECKPOINT = "training.pt"
+# Rollouts in which the normalization of a policy without a checkpoint is measured. Chosen: several episodes of all robots.
+MEASURED_ROLLOUTS = 8
 # Weights of the reward's terms (tools/policy-train/reward_terms.h), for a second. Chosen.
 WEIGHTS = {
     "walk": {"velocity_tracking": 3.0, "turn_tracking": 1.0, "alive": 0.5, "gait": 0.5, "clearance": 5.0, "tilt": -5.0,
@@ -46,7 +48,7 @@ WEIGHTS = {
 DEFAULTS: dict[str, Any] = {
     "hidden": [128, 128], "size": 256, "horizon": 32, "epochs": 4, "minibatches": 4, "discount": 0.99, "trace": 0.95,
     "clip": 0.2, "entropy": 0.003, "divergence": 0.01, "rate": 1e-3, "deviation": 0.6, "push": 0.0,
-    "episode": 20.0, "disturbances": "default",
+    "rest": 0.0, "episode": 20.0, "disturbances": "default", "critic_first": 0,
 }
 
 
@@ -219,11 +221,15 @@ class Trainer:
                 gain = advantage[index]
                 surrogate = torch.min(ratio * gain, ratio.clamp(1 - settings["clip"], 1 + settings["clip"]) * gain).mean()
                 value_loss = (self.critic(self.normalize(state))[:, 0] - rows["return"][index]).pow(2).mean()
-                loss = -surrogate + value_loss - settings["entropy"] * normal.entropy().sum(1).mean()
+                loss = value_loss
+                if self.num_iterations >= settings["critic_first"]:
+                    loss = loss - surrogate - settings["entropy"] * normal.entropy().sum(1).mean()
                 self.optimizer.zero_grad()
                 loss.backward()
                 nn.utils.clip_grad_norm_([*self.actor.parameters(), *self.critic.parameters(), self.deviation], 1.0)
                 self.optimizer.step()
+                if self.num_iterations < settings["critic_first"]:
+                    continue
                 with torch.no_grad():
                     divergence = (torch.log(deviation / old_deviation) + (old_deviation ** 2 + (rows["mean"][index] - mean) ** 2)
                                   / (2 * deviation ** 2) - 0.5).sum(1).mean()
@@ -253,6 +259,24 @@ class Trainer:
         weight = layers[0][0] * self.normalize.scale()[:n].numpy()
         layers[0] = (weight, layers[0][1] - weight @ self.normalize.mean[:n].numpy())
         return layers
+
+    @torch.no_grad()
+    def adopt(self, layers: list[tuple[np.ndarray, np.ndarray]]) -> None:
+        """Goes on from a policy that layers() gave. Its normalization is measured while it moves the robots."""
+        linear = [layer for layer in self.actor.network if isinstance(layer, nn.Linear)]
+        for k, (layer, (weight, bias)) in enumerate(zip(linear, layers)):
+            rows, columns = layer.weight.shape
+            last = 2 if k == len(linear) - 1 else 1
+            layer.weight.copy_(last * torch.from_numpy(weight[:rows, :columns]))
+            layer.bias.copy_(torch.from_numpy(bias[:rows]))
+        first, n = linear[0], self.batch.observations.shape[1]
+        weight, bias = first.weight.clone(), first.bias.clone()
+        for _ in range(MEASURED_ROLLOUTS):
+            first.weight.copy_(weight / self.normalize.scale()[:n])
+            first.bias.copy_(bias + weight @ self.normalize.mean[:n])
+            self.normalize.update(self.collect()["state"])
+        first.weight.copy_(weight / self.normalize.scale()[:n])
+        first.bias.copy_(bias + weight @ self.normalize.mean[:n])
 
     def save(self, file: Path) -> None:
         state = {"actor": self.actor.state_dict(), "critic": self.critic.state_dict(), "deviation": self.deviation.data,
@@ -295,7 +319,7 @@ def open_batch(folder: Path, model: str, settings: dict[str, Any], weights: dict
     """Under mpirun it returns in the first process only; the others simulate until that one ends.
     @return the robots and the weights of their reward's terms, for a second.
     @throws RuntimeError, ValueError  as Batch and Batch.weights() do."""
-    options = {name: settings[name] for name in ("size", "disturbances", "push", "episode")}
+    options = {name: settings[name] for name in ("size", "disturbances", "push", "rest", "episode")}
     options |= {"policy": folder / "policy.yaml", "model": model, "seed": 1000 * seed, "threads": threads}
     if int(os.environ.get("OMPI_COMM_WORLD_SIZE", "1")) == 1:
         batch = Batch(**options)
@@ -346,6 +370,7 @@ def main() -> None:
     parser.add_argument("--iterations", type=int, default=1_000_000, help="at the most")
     parser.add_argument("--threads", type=int, default=os.cpu_count(), help="of the simulation (default: all cores)")
     parser.add_argument("--resume", action="store_true", help=f"go on from {CHECKPOINT}")
+    parser.add_argument("--start", type=Path, help="go on from this policy.onnx, of the same observations and hidden layers")
     options = parser.parse_args()
     settings, weights = read_settings(options.folder)
     if options.resume and not (options.folder / CHECKPOINT).exists():
@@ -359,6 +384,8 @@ def main() -> None:
         trainer = Trainer(batch, settings, row, options.seed)
         if options.resume:
             trainer.load(options.folder / CHECKPOINT)
+        elif options.start:
+            trainer.adopt(read_mlp(options.start))
         train(trainer, options.folder, options)
 
 

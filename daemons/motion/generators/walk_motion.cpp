@@ -193,10 +193,20 @@ void WalkingMotion::describe(MotionState& state) const {
 }
 
 WalkMotion::WalkMotion(const RobotModel& model, const Gait& gait,
-                       std::unique_ptr<MotionGenerator> stand_up, const WalkCommand& command)
-    : WalkingMotion(model, gait, std::move(stand_up)), model_(&model), command_(command) {}
+                       std::unique_ptr<MotionGenerator> stand_up,
+                       const std::optional<WalkCommand>& command)
+    : WalkingMotion(model, gait, std::move(stand_up)),
+      model_(&model),
+      command_(command.value_or(WalkCommand{})),
+      answers_push_(!command) {}
+
+void WalkMotion::start(const MotionContext& context, const JointTargets& targets) {
+  if (!answers_push_) return WalkingMotion::start(context, targets);
+  engine().start_pushed(context.state, context.kinematics, context.sensors.period, targets);
+}
 
 bool WalkMotion::adopt(const Command& command) {
+  if (answers_push_) return false;
   // A kick or a new velocity while walking is taken into the running walk. false: the command needs
   // a motion of its own.
   if (const auto* action = std::get_if<ActionCommand>(&command.request)) {
@@ -248,7 +258,7 @@ bool WalkMotion::wants_to_go_on() const {
 }
 
 bool WalkMotion::conclude(const MotionContext& /*context*/, Reason& reason) {
-  if (age_ > kCommandLifetime)
+  if (age_ > kCommandLifetime && !answers_push_)
     reason = Reason("walk-command-timeout", {to_argument(kCommandLifetime)});
   return true;
 }

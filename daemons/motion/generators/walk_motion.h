@@ -79,8 +79,12 @@ class WalkingMotion : public MotionGenerator {
  * something else waits. */
 class WalkMotion : public WalkingMotion {
  public:
+  /** @param command  Nothing: the robot stands and was pushed; it steps at once, until it stands
+   * again. */
   WalkMotion(const RobotModel& model, const Gait& gait, std::unique_ptr<MotionGenerator> stand_up,
-             const WalkCommand& command);
+             const std::optional<WalkCommand>& command);
+
+  void start(const MotionContext& context, const JointTargets& targets) override;
 
   /** A walk's new velocity, or a kick to strike in passing. */
   bool adopt(const Command& command) override;
@@ -94,6 +98,7 @@ class WalkMotion : public WalkingMotion {
  private:
   const RobotModel* model_;
   WalkCommand command_;
+  bool answers_push_;
   /** Time since the command came, s. */
   double age_ = 0;
 };

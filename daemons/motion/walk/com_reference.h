@@ -32,6 +32,9 @@ class ComReference {
     zmp_ = com;
   }
 
+  /** Continues a motion. */
+  void start_at(const PendulumState& state) { state_ = state; }
+
   /** Moves towards the measured state with rates com_position_gain and com_velocity_gain. */
   void follow(const PendulumState& measured, double dt) {
     state_.position +=

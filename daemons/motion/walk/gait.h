@@ -44,8 +44,9 @@ struct Gait {
   /** Feedback of the torso's angular velocity, s, and tilt, dimensionless, to joint angles. */
   NAO_PARAMETER_GROUP(Orientation, orientation, gyro_ankle_pitch, gyro_ankle_roll, gyro_hip_pitch,
                       gyro_hip_roll, tilt_ankle_pitch, tilt_ankle_roll);
-  /** Feedback of the torso's angular velocity while the robot stands: s, s, rad/s. */
-  NAO_PARAMETER_GROUP(Standing, standing, ankle_pitch, hip_pitch, least_rate);
+  /** Feedback of the torso's angular velocity while the robot stands: s, s, rad/s; margin of the
+   * capture point below which it steps, m. */
+  NAO_PARAMETER_GROUP(Standing, standing, ankle_pitch, hip_pitch, least_rate, step_margin);
   /** Feedforward to the position servos: s, dimensionless scales. */
   NAO_PARAMETER_GROUP(Servo, servo, lead_time, torque_scale, velocity_scale, inertia_scale);
   /** Kick during the walk, m. */

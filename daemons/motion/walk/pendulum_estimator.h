@@ -32,6 +32,12 @@ class PendulumEstimator {
     offset_ = limited(kStandingFraction * (position - zmp));
   }
 
+  /** Starts in a motion, without an offset: the center of pressure is at an edge of the soles. */
+  void reset(const PendulumState& state) {
+    state_ = state;
+    offset_.setZero();
+  }
+
   /** Takes in one measurement.
    * @param position  Position of the center of mass, m. @param zmp  m. @param omega  1/s.
    * @param dt        s since the last measurement. */

@@ -51,6 +51,8 @@ class StepPlanner {
   /** The next footstep first. */
   const std::vector<PlannedStep>& footsteps() const { return footsteps_; }
   const DcmPlan& dcm() const { return dcm_; }
+  /** Of the DCM from the plan beyond the learned one, m, expected at the end of the step. */
+  const Eigen::Vector2d& deviation() const { return deviation_; }
   /** Where the swing foot is to land, as adapted. */
   const Pose2& foothold() const { return foothold_; }
   /** Where the center of mass rests after the walk, m: ahead of the midpoint of the feet as far as

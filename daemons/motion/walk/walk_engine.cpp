@@ -22,6 +22,12 @@ using Eigen::Vector3d;
 constexpr double kEarliestTouchdown = 0.6;
 // The weight transfer before the first step is given up after this many times its duration.
 constexpr double kMaxStarting = 4;
+// Time in which the targets change from the stand's to the walk's after a push, s. Chosen: in 0.1 s
+// a T1 hops.
+constexpr double kPushedFadeTime = 0.2;
+// A push is over when the DCM is expected so near its planned end point, m. Chosen: more than in
+// walks without pushes.
+constexpr double kPushedDeviation = 0.02;
 // A sideways velocity above this, m/s, decides which foot steps first; else the turn does.
 constexpr double kSidewaysStart = 0.02;
 
@@ -54,6 +60,7 @@ void WalkEngine::start(const JointTargets& targets) {
   walk_fraction_ = 0;
   is_ending_ = false;
   is_capturing_ = false;
+  is_pushed_ = false;
   velocity_.stop();
   kick_.reset();
   steps_.start();
@@ -63,6 +70,23 @@ void WalkEngine::start(const JointTargets& targets) {
   feet_.start(body_.pose().start_right_sole());
   reference_.start(feet_.midpoint(), body_.pose().start_com_height());
   duration_ = body_.pose().lowering_duration();
+  body_.start(body_command());
+}
+
+void WalkEngine::start_pushed(const RobotState& state, const Kinematics& measured, double dt,
+                              const JointTargets& targets) {
+  start(targets);
+  observer_.start(true);
+  observer_.update(state, measured.center_of_mass(), feet_.support_is_left(), reference_,
+                   body_.pose().torso_pitch(), dt);
+  reference_.start_at(observer_.com());
+  // The foot on the side to which the robot moves steps.
+  if (reference_.dcm().y() > feet_.midpoint().y()) exchange_support();
+  reference_.set_zmp(feet_.support_zmp());
+  is_ending_ = true;
+  is_pushed_ = true;
+  begin_step();
+  body_.read_start(targets.position);
   body_.start(body_command());
 }
 
@@ -138,7 +162,7 @@ void WalkEngine::begin_starting() {
   const bool swing_is_left = to_left > 0;
   // The exchange changes which foot S belongs to, and nothing that the robot does.
   if (swing_is_left == feet_.support_is_left()) {
-    reference_.change_frame(feet_.exchange(feet_.support_spread()));
+    exchange_support();
   }
   plan_steps();
 }
@@ -165,7 +189,8 @@ void WalkEngine::step_starting(double dt) {
 void WalkEngine::begin_step() {
   stage_ = Stage::kStepping;
   time_ = 0;
-  duration_ = gait_->timing.step_duration;
+  // After a push the DCM moves away exponentially: the sooner the foot lands, the less far.
+  duration_ = is_pushed_ ? gait_->timing.min_step_duration : gait_->timing.step_duration;
   // Where the robot is by odometry, for path tracking and the approach to a ball.
   const Pose2 body = body_in_odometry();
   Vector3d target = Vector3d::Zero();
@@ -193,6 +218,7 @@ void WalkEngine::begin_capture() {
 void WalkEngine::step_stepping(double dt) {
   if (is_ending_ && !is_capturing_) begin_capture();
   velocity_.advance(dt);
+  walk_fraction_ = std::min(1.0, walk_fraction_ + dt / kPushedFadeTime);
   // The reference moves towards the measured center of mass by com_position_gain and
   // com_velocity_gain: ZMP and plan then start from where the robot is.
   reference_.follow(observer_.com(), dt);
@@ -212,7 +238,7 @@ void WalkEngine::control_dcm() {
   const double zmp_y = -feet_.side() * nominal.y();
   const LateralDcm lateral{-feet_.side() * dcm.y() - zmp_y,
                            -feet_.side() * steps_.dcm().end.y() - zmp_y};
-  duration_ = adapt_step_duration(*gait_, lateral, omega, time_, duration_);
+  if (!is_pushed_) duration_ = adapt_step_duration(*gait_, lateral, omega, time_, duration_);
 
   const double remaining = duration_ - time_;
   if (remaining <= kMinHorizon) return;
@@ -251,6 +277,7 @@ bool WalkEngine::has_landed(double dt) {
 
 void WalkEngine::change_support() {
   kick_.end_step();
+  is_pushed_ = is_pushed_ && steps_.deviation().norm() > kPushedDeviation;
   const Spread spread = steps_.end_step(feet_, velocity_.step_velocity());
   reference_.change_frame(feet_.exchange(spread));
   // The walk is over when velocity is 0 and the feet are side by side; otherwise one more step.

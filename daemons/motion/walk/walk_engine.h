@@ -58,6 +58,11 @@ class WalkEngine {
   /** Begins with both feet on the ground. @param targets  As sent in the last tick. */
   void start(const JointTargets& targets);
 
+  /** Begins with a step at once, in a stand from which the robot was pushed; the walk ends as soon
+   * as it stands. @param dt  Control period, s. */
+  void start_pushed(const RobotState& state, const Kinematics& measured, double dt,
+                    const JointTargets& targets);
+
   /** @param velocity  Commanded: m/s ahead and to the left, rad/s. Takes effect at the next step,
    * clipped to the robot's limits. Zero: steps in place. */
   void set_velocity(const Eigen::Vector3d& velocity) { commanded_ = velocity; }
@@ -92,6 +97,7 @@ class WalkEngine {
   void begin_starting();
   void step_starting(double dt);
   void begin_step();
+  void exchange_support() { reference_.change_frame(feet_.exchange(feet_.support_spread())); }
   /** Turns the present step into the one that brings the center of mass to rest. */
   void begin_capture();
   void step_stepping(double dt);
@@ -117,6 +123,8 @@ class WalkEngine {
 
   Eigen::Vector3d commanded_ = Eigen::Vector3d::Zero();
   bool is_ending_ = false;
+  /** The robot recovers from a push: its steps are as short as they can be. */
+  bool is_pushed_ = false;
   /** The present step was planned to end the walk. */
   bool is_capturing_ = false;
 

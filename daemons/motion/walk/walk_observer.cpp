@@ -19,8 +19,9 @@ constexpr double kMaxTilt = 0.35;
 
 }  // namespace
 
-void WalkObserver::start() {
+void WalkObserver::start(bool is_pushed) {
   gyroscope_.reset();
+  starts_pushed_ = is_pushed;
   has_estimate_ = false;
 }
 
@@ -57,7 +58,11 @@ void WalkObserver::estimate_com(const RobotState& state, const Vector3d& com_in_
   if (!zmp.allFinite()) zmp = reference.zmp();
   // There are three cases: the first tick; a changed support foot, for which position and velocity
   // are re-expressed in the new S; and the usual update of the filter.
-  if (!has_estimate_) {
+  if (!has_estimate_ && starts_pushed_) {
+    estimator_.reset(
+        {position, to_support.rotate(state.center_of_mass_velocity_in_odometry.head<2>())});
+    has_estimate_ = true;
+  } else if (!has_estimate_) {
     estimator_.reset(position, zmp);
     has_estimate_ = true;
   } else if (support_is_left != support_was_left_) {

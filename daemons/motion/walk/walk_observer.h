@@ -19,8 +19,8 @@ class WalkObserver {
   explicit WalkObserver(const Gait& gait)
       : estimator_(gait.feedback.max_com_offset, gait.feedback.com_offset_gain) {}
 
-  /** Forgets the estimate of a previous walk. */
-  void start();
+  /** Forgets the estimate of a previous walk. @param is_pushed  The robot moves already. */
+  void start(bool is_pushed = false);
 
   /** Takes in one tick.
    * @param com_in_torso     From the measured joint angles, m.
@@ -53,6 +53,7 @@ class WalkObserver {
 
   PendulumEstimator estimator_;
   bool has_estimate_ = false;
+  bool starts_pushed_ = false;
   /** At the last update. */
   bool support_was_left_ = true;
   double support_heading_ = 0;

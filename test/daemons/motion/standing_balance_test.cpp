@@ -16,6 +16,19 @@ class StandingBalanceTest : public ::testing::Test {
     gains_.ankle_pitch = 0.04;
     gains_.hip_pitch = 0.08;
     gains_.least_rate = 0.1;
+    gains_.step_margin = 0.03;
+  }
+
+  /** Whether it steps with its center of mass at a height of 1 m over the middle of soles of 0.2 by
+   * 0.3 m that head to the left, at a velocity, m/s, in their frame. */
+  bool steps_at(double ahead, double left) const {
+    RobotState state;
+    state.torso_in_odometry.linear() =
+        Eigen::AngleAxisd(M_PI / 2, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+    state.center_of_mass_in_odometry = {0, 0, 1};
+    state.center_of_mass_velocity_in_odometry = {-left, ahead, 0};
+    state.support_polygon_in_odometry = {{-0.15, -0.1}, {0.15, -0.1}, {0.15, 0.1}, {-0.15, 0.1}};
+    return StandingBalance(gains_, legs_).must_step(state);
   }
 
   /** Angles that a torso's pitch rate, rad/s, adds. */
@@ -57,6 +70,24 @@ TEST_F(StandingBalanceTest, NoiseBelowTheLeastRateMovesNothing) {
   for (const double rate : {-0.1, -0.03, 0.0, 0.1}) {
     EXPECT_EQ(added_at(rate), std::vector<double>(model_.num_motors(), 0.0));
   }
+}
+
+// The capture point is ahead of the center of mass by 0.319 s times the velocity.
+TEST_F(StandingBalanceTest, StepsWhenThePointWhereItComesToRestNearsTheToesOrTheHeels) {
+  EXPECT_TRUE(steps_at(0.23, 0));
+  EXPECT_FALSE(steps_at(0.21, 0));
+  EXPECT_TRUE(steps_at(-0.23, 0.1));
+  EXPECT_FALSE(steps_at(0.1, 1));
+  // Slower than a push: it leans.
+  gains_.step_margin = 0.05;
+  EXPECT_FALSE(steps_at(0.19, 0));
+  gains_.step_margin = -0.02;
+  EXPECT_FALSE(steps_at(0.35, 0));
+  EXPECT_TRUE(steps_at(0.4, 0));
+  // Lifted.
+  RobotState state;
+  state.center_of_mass_velocity_in_odometry = {1, 0, 0};
+  EXPECT_FALSE(StandingBalance(gains_, legs_).must_step(state));
 }
 
 }  // namespace

@@ -182,6 +182,26 @@ class TrainingTest(unittest.TestCase):
         self.assertEqual([line["iteration"] for line in lines], [1, 2, 3, 4])
         self.assertEqual(lines[-1]["samples"], 4 * 16 * 8)
 
+    def test_goes_on_from_a_policy_without_a_checkpoint(self) -> None:
+        """With a critic that learns first, the function stays that of the policy."""
+        import cv2
+        import train_policy
+
+        with tempfile.TemporaryDirectory() as name, unittest.mock.patch.dict(train_policy.DEFAULTS, {"critic_first": 9}):
+            folder = Path(name)
+            self.train(folder, "--iterations", "3", "--seed", "5")
+            start = folder / "start.onnx"
+            (folder / "policy.onnx").rename(start)
+            self.train(folder, "--iterations", "0", "--start", str(start))
+            row = np.random.default_rng(1).standard_normal((1, 47)).astype(np.float32)
+            outputs = []
+            for file in (start, folder / "policy.onnx"):
+                network = cv2.dnn.readNetFromONNX(str(file))
+                network.setInput(row)
+                outputs.append(network.forward())
+            self.assertGreater(np.abs(outputs[0]).max(), 1e-3)
+            np.testing.assert_allclose(outputs[1], outputs[0], atol=1e-4)
+
     def test_the_network_is_the_trained_one(self) -> None:
         """What is written takes observations that are not normalized, and gives the actor's mean."""
         import cv2
