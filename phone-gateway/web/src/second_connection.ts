@@ -3,6 +3,7 @@
 import {retryDelayMs} from "./backoff";
 import {decodeServerMessage, encodeRequest} from "./protocol/codec";
 import {ErrorCode} from "./protocol/generated/remote_pb";
+import {randomKey} from "./random_key";
 import type {Transport} from "./transport";
 
 /** A longer request is sent once; bytes. Chosen: far above a command, below a taught motion. */
@@ -65,9 +66,4 @@ export class SecondConnection {
     this.hasJoined = false;
     this.retryTimer = setTimeout(() => this.start(), retryDelayMs(++this.attempts));
   }
-}
-
-/** 128 random bits. */
-function randomKey(): string {
-  return [...crypto.getRandomValues(new Uint8Array(16))].map((byte) => byte.toString(16).padStart(2, "0")).join("");
 }

@@ -34,6 +34,9 @@ const kPasses = [
   {name: "320-dark-ar", size: [320, 568], options: {...kDark, locale: "ar-EG"}},
   {name: "915-dark-ar", size: [915, 412], options: {...kDark, locale: "ar-EG"}},
   {name: "desk-light-ar", size: [1280, 800], options: {...kLight, ...kDesk, locale: "ar-EG"}},
+  // Letters 10 % wider, as of another font: half a pixel to one more beside each.
+  {name: "320-wide-de", size: [320, 568], options: {...kLight, locale: "de-DE"}, spacing: ".05em", isTypical: true},
+  {name: "915-wide-ar", size: [915, 412], options: {...kDark, locale: "ar-EG"}, spacing: ".05em"},
   {name: "412-letters-200", size: [412, 915], options: kDark, letters: "200%"},
 ];
 
@@ -57,10 +60,11 @@ after(async () => {
   rmSync(folder, {recursive: true, force: true});
 });
 
-/** As set by a phone that shows large letters. */
-function setPage({letters}) {
+/** As set by a phone that shows large or wide letters. */
+function setPage({letters, spacing}) {
   const set = () => {
     if (letters) document.documentElement.style.fontSize = letters;
+    if (spacing) document.documentElement.style.letterSpacing = spacing;
   };
   if (document.documentElement) set();
   document.addEventListener("DOMContentLoaded", set);
@@ -136,6 +140,8 @@ for (const {name, size: [width, height], options, ...page} of kPasses.filter((pa
     const eva = await open(fake.url.replace("token=fake", "token=old"), "Eva");
     await eva.page.locator(".problem").waitFor();
     await look(eva, "code");
+    const submit = await eva.page.locator('.card [type="submit"]').boundingBox();
+    assert.ok(submit.y + submit.height <= height, `code: the button ends at ${submit.y + submit.height} px`);
     await eva.close();
 
     const dan = await open(match.url, "Dan");

@@ -11,14 +11,14 @@ const kStateDelay = 20_000;
 /** How long the page is watched after it is done, ms. */
 const kAfterwardsMs = 300;
 
-/** In the page: notes what each frame shows. */
-function sampleJoint(joint) {
+/** In the page: notes what each frame shows; nothing while there is no state, as after a link that was lost. */
+export function sampleJoint(joint) {
   const {naoRemote} = window;
   const samples = window.shownSamples = [];
   const look = (nowMs) => {
     if (window.shownSamples !== samples) return;
-    samples.push({ms: nowMs, wallMs: performance.timeOrigin + nowMs, utime: Number(naoRemote.state.state.utime),
-                  angle: naoRemote.jointAngles()[joint]});
+    const {state} = naoRemote.state;
+    if (state) samples.push({ms: nowMs, wallMs: performance.timeOrigin + nowMs, utime: Number(state.utime), angle: naoRemote.jointAngles()[joint]});
     requestAnimationFrame(look);
   };
   requestAnimationFrame(look);

@@ -2,7 +2,7 @@
 // it, and the simulated joint follows.
 import assert from "node:assert/strict";
 import {test} from "node:test";
-import {compare, lagsOf, watchJoint} from "./following.mjs";
+import {compare, lagsOf, sampleJoint, watchJoint} from "./following.mjs";
 import {setUp} from "./set_up.mjs";
 import {until} from "./stack.mjs";
 
@@ -128,4 +128,15 @@ test("the lock takes the balls away and brings the drive controls back", async (
   assert.ok(await phone.page.locator(".joystick-walk").isVisible());
   assert.ok(await phone.page.locator(".joint-card").isHidden());
   assert.deepEqual(phone.errors, []);
+});
+
+test("a joint is not sampled while the page has no state, as after a lost link", () => {
+  const frames = [];
+  const naoRemote = {state: {state: null}, jointAngles: () => ({HeadYaw: 0.5})};
+  Object.assign(globalThis, {window: {naoRemote}, requestAnimationFrame: (look) => frames.push(look)});
+  sampleJoint("HeadYaw");
+  frames.shift()(1);
+  naoRemote.state.state = {utime: 7n};
+  frames.shift()(2);
+  assert.deepEqual(window.shownSamples.map(({ms, utime, angle}) => [ms, utime, angle]), [[2, 7, 0.5]]);
 });

@@ -4,7 +4,7 @@ import "./operator.css";
 import {create} from "@bufbuild/protobuf";
 import type {MessageInitShape} from "@bufbuild/protobuf";
 import {Connection} from "../connection";
-import {el, setText} from "../dom";
+import {cssColor, el, setText} from "../dom";
 import {ErrorCode, RunExhibitionSchema} from "../protocol/generated/remote_pb";
 import type {Exhibition} from "../protocol/generated/remote_pb";
 import {Store} from "../store";
@@ -13,7 +13,8 @@ import {GatewayTransport, isInvitation} from "../relay/gateway_transport";
 import {tell} from "./exhibition_texts";
 import type {ExhibitionKey} from "./exhibition_texts";
 import {fromAddress, pairingToken, takeLanguage} from "./page";
-import {clock, driverInWords} from "./words";
+import {driverInWords} from "./words";
+import {clockInWords} from "../text/clock";
 
 type Change = MessageInitShape<typeof RunExhibitionSchema>;
 
@@ -72,8 +73,8 @@ class OperatorPage {
       this.choice("volume", kVolumes, ({volume}) => volume, (volume) => ({volume})),
       el("fieldset", {}, el("legend", {}, tell("lights")),
          ...kColors.map((lightRgb) => el("button", {
-           class: "button color", style: `--color: #${lightRgb.toString(16).padStart(6, "0")}`,
-           "aria-label": `${tell("lights")} #${lightRgb.toString(16).padStart(6, "0")}`, onclick: () => void this.run({lightRgb})}))));
+           class: "button color", style: `--color: ${cssColor(lightRgb)}`,
+           "aria-label": `${tell("lights")} ${cssColor(lightRgb)}`, onclick: () => void this.run({lightRgb})}))));
   }
 
   private permission(key: "kicks" | "falls", isForbidden: boolean): string {
@@ -116,7 +117,7 @@ class OperatorPage {
       this.show(exhibition);
     });
     setText(this.driver, driverInWords(exhibition));
-    setText(this.time, exhibition.driver ? clock(exhibition.turnLeft) : "");
+    setText(this.time, exhibition.driver ? clockInWords(exhibition.turnLeft) : "");
     this.time.classList.toggle("warned", exhibition.isWarned);
     const names = exhibition.waiting.join(", ");
     setText(this.queue, `${tell("waiting", {number: exhibition.numWaiting})}${names ? ` (${names})` : ""} · ` +

@@ -7,7 +7,8 @@ import {Store} from "../store";
 import {tell} from "./exhibition_texts";
 import {LiveView} from "./live_view";
 import {pairingToken, takeLanguage} from "./page";
-import {challengeInWords, challengeTime, clock, driverInWords} from "./words";
+import {challengeInWords, challengeTime, driverInWords} from "./words";
+import {clockInWords} from "../text/clock";
 
 class Screen {
   private readonly driver = el("h1");
@@ -43,7 +44,7 @@ class Screen {
     if (!exhibition) return;
     const {driver, waiting, numWaiting, bestTime, bestNickname} = exhibition;
     setText(this.driver, driverInWords(exhibition));
-    setText(this.time, driver ? clock(exhibition.turnLeft) : "");
+    setText(this.time, driver ? clockInWords(exhibition.turnLeft) : "");
     this.time.classList.toggle("warned", exhibition.isWarned);
     setText(this.title, waiting.length > 0 ? tell("queue") : "");
     if (this.queue.textContent !== waiting.join("")) this.queue.replaceChildren(...waiting.map((name) => el("li", {}, name)));

@@ -5,12 +5,14 @@ import type {Commander} from "../commander";
 import {el, setText} from "../dom";
 import {AttendSchema, ErrorCode, Exhibition_Phase as Phase} from "../protocol/generated/remote_pb";
 import type {Exhibition} from "../protocol/generated/remote_pb";
+import {randomKey} from "../random_key";
 import {keep, recall} from "../storage";
 import type {Store} from "../store";
 import {getLanguage} from "../text/texts";
 import {vibrate} from "../vibrate";
 import {setWords, tell} from "./exhibition_texts";
-import {challengeInWords, challengeTime, clock, driverInWords, waitInWords} from "./words";
+import {challengeInWords, challengeTime, driverInWords, waitInWords} from "./words";
+import {clockInWords} from "../text/clock";
 import css from "./visit.css?inline";
 
 const kKey = "nao-remote-visitor";
@@ -22,7 +24,7 @@ const kWarnPattern = [100, 60, 100];
 function visitorKey(memory: Storage | null): string {
   const known = recall<string>(memory, kKey);
   if (typeof known === "string") return known;
-  const key = Array.from(crypto.getRandomValues(new Uint8Array(16)), (byte) => byte.toString(16).padStart(2, "0")).join("");
+  const key = randomKey();
   keep(memory, kKey, key);
   return key;
 }
@@ -98,7 +100,7 @@ export class Visit {
     this.root.dataset["visit"] = mayDrive ? "driving" : "waiting";
     this.chip.hidden = !mayDrive;
     this.chip.classList.toggle("warned", exhibition.isWarned);
-    setText(this.time, tell("warned", {time: clock(exhibition.turnLeft)}));
+    setText(this.time, tell("warned", {time: clockInWords(exhibition.turnLeft)}));
     setText(this.challenge, challengeInWords(exhibition));
     this.showCard(exhibition);
   }

@@ -1,12 +1,13 @@
 import {create} from "@bufbuild/protobuf";
 import {describe, expect, it} from "vitest";
 import {ExhibitionSchema} from "../protocol/generated/remote_pb";
-import {challengeInWords, clock, driverInWords, waitInWords} from "./words";
+import {challengeInWords, driverInWords, waitInWords} from "./words";
+import {clockInWords} from "../text/clock";
 
 describe("words of an exhibition", () => {
   it("count a turn down", () => {
-    expect(clock(90)).toBe("1:30");
-    expect(clock(5)).toBe("0:05");
+    expect(clockInWords(90)).toBe("1:30");
+    expect(clockInWords(5)).toBe("0:05");
   });
 
   it("tell a wait in minutes, and the last one as such", () => {

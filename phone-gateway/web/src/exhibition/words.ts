@@ -2,11 +2,6 @@
 import type {Exhibition} from "../protocol/generated/remote_pb";
 import {tell} from "./exhibition_texts";
 
-/** @param seconds  whole. @return "1:05". */
-export function clock(seconds: number): string {
-  return `${Math.floor(seconds / 60)}:${String(seconds % 60).padStart(2, "0")}`;
-}
-
 /** When a visitor's turn will begin. */
 export function waitInWords({wait}: Exhibition): string {
   return wait < 60 ? tell("soon") : tell("minutes", {minutes: Math.round(wait / 60)});

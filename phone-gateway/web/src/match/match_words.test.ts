@@ -5,7 +5,8 @@ import {Messages} from "../messages";
 import {Store} from "../store";
 import {MatchEvents} from "./match_events";
 import {tonesOf} from "./match_sound";
-import {clockInWords, eventInWords, penaltyOf, phaseInWords} from "./match_words";
+import {clockInWords} from "../text/clock";
+import {eventInWords, penaltyOf, phaseInWords} from "./match_words";
 
 describe("a match in words", () => {
   it("shows the clock as minutes and seconds", () => {

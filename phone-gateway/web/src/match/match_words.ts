@@ -2,12 +2,8 @@
 import {Match_Event, Match_Phase} from "../protocol/generated/remote_pb";
 import type {Match} from "../protocol/generated/remote_pb";
 import {nameOf} from "../protocol/names";
+import {clockInWords} from "../text/clock";
 import {isText, say} from "../text/texts";
-
-/** "4:07". */
-export function clockInWords(seconds: number): string {
-  return `${Math.floor(seconds / 60)}:${String(seconds % 60).padStart(2, "0")}`;
-}
 
 export function phaseInWords({phase, half, timeLeft}: Match): string {
   return say(`match.${nameOf(Match_Phase, phase, "playing")}`,

@@ -1,7 +1,7 @@
 /** The ground: turf with the lines of the field, fading out around the robot. Lines are computed
  * per pixel, as in the head camera's image, so that they stay sharp without a texture. */
 import {
-  CircleGeometry, Color, Group, Mesh, MeshBasicMaterial, PlaneGeometry, RingGeometry, ShaderMaterial, ShadowMaterial,
+  CircleGeometry, Color, Group, LinearSRGBColorSpace, Mesh, MeshBasicMaterial, PlaneGeometry, RingGeometry, ShaderMaterial, ShadowMaterial,
   Vector2, Vector4,
 } from "three";
 
@@ -30,51 +30,47 @@ const kVertexShader = `
     gl_Position = projectionMatrix * viewMatrix * world;
   }`;
 
+/** Colors as the screen shows them: blended without a conversion, which would cost a processor more than the lines. */
 const kFragmentShader = `
   varying vec2 place;
   uniform vec2 centre;
   uniform float radius;
-  uniform float hasField;
   uniform vec4 field;    // half length, half width, half line width, circle radius
   uniform vec2 penalty;  // penalty area: length, half width
   uniform vec3 turf;
   uniform vec3 lines;
   uniform float contact;  // of the darkness around the feet: squared radius over its squared width
 
-  // Share of a pixel, so wide at this place, that lies within half the line width of the line at distance d.
-  float line(float d, float halfWidth, float pixel) {
-    float share = clamp((halfWidth - abs(d)) / pixel + 0.5, 0.0, 1.0);
-    return share * min(1.0, 2.0 * halfWidth / pixel + 0.15);
+  // Fraction of a pixel, 1 / perPixel wide, that is so far inside a line of half width w.
+  vec2 cover(vec2 inside, float w, vec2 perPixel) {
+    return clamp(inside * perPixel + 0.5, 0.0, 1.0) * min(vec2(1.0), 2.0 * w * perPixel + 0.15);
   }
-  float grid(vec2 p, vec2 pixel) {
-    vec2 d = abs(fract(p / 0.25 + 0.5) - 0.5) * 0.25;
-    return max(line(d.x, 0.002, pixel.x), line(d.y, 0.002, pixel.y));
-  }
-  float fieldLines(vec2 p, vec2 pixel) {
+  float drawn(vec2 p, vec2 pixel) {
+  #ifdef HAS_FIELD
     vec2 a = abs(p);
     float w = field.z;
-    float inside = step(a.x, field.x + w) * step(a.y, field.y + w);
-    float l = max(line(a.x - field.x, w, pixel.x), line(a.y - field.y, w, pixel.y)) * inside;
-    l = max(l, line(p.x, w, pixel.x) * inside);
-    float far = length(p);
-    l = max(l, line(far - field.w, w, dot(a, pixel) / max(far, 1e-3)));
     float depth = field.x - a.x;
-    float box = max(line(depth - penalty.x, w, pixel.x) * step(a.y, penalty.y + w),
-                    line(a.y - penalty.y, w, pixel.y) * step(depth, penalty.x + w));
-    return max(l, box * inside);
+    // Lines across and along: goal lines and halfway line, sidelines; those of the penalty area.
+    vec2 across = vec2(w) - vec2(min(abs(depth), a.x), abs(a.y - field.y));
+    vec2 box = vec2(w) - abs(vec2(depth, a.y) - penalty);
+    vec2 inBox = step(vec2(a.y, depth), penalty.yx + w);
+    vec2 l = cover(max(across, mix(vec2(-1.0), box, inBox)), w, 1.0 / pixel) * step(a.x, field.x + w) * step(a.y, field.y + w);
+    float far = length(p);
+    return 0.95 * max(max(l.x, l.y), cover(vec2(w - abs(far - field.w)), w, vec2(far / dot(a, pixel))).x);
+  #else
+    vec2 l = cover(0.002 - abs(fract(p / 0.25 + 0.5) - 0.5) * 0.25, 0.002, 1.0 / pixel);
+    return 0.26 * max(l.x, l.y);
+  #endif
   }
   void main() {
-    // Before any branch: derivatives are taken between neighbours.
-    vec2 pixel = fwidth(place) + 1e-6;
+    vec3 color = mix(turf, lines, drawn(place, fwidth(place) + 1e-6));
     float d = distance(place, centre) / radius;
+    // A soft darkness around the feet, where shadows cost too much as well: about exp(-contact d^2).
+    float near = max(0.0, 1.0 - 0.25 * contact * d * d);
+    near *= near;
+    color *= 1.0 - 0.24 * near * near;
     float fade = 1.0 - smoothstep(0.3, 1.0, d);
-    vec3 color = mix(turf, lines, 0.12 * (1.0 - hasField) * grid(place, pixel));
-    if (hasField > 0.5) color = mix(color, lines, 0.9 * fieldLines(place, pixel));
-    // A soft darkness around the feet, where shadows cost too much as well.
-    color *= 1.0 - 0.45 * exp(-d * d * contact);
-    gl_FragColor = vec4(color, fade);
-    #include <colorspace_fragment>
-    gl_FragColor.rgb *= fade;
+    gl_FragColor = vec4(color * fade, fade);
   }`;
 
 export class Floor {
@@ -82,13 +78,14 @@ export class Floor {
   private readonly uniforms = {
     centre: {value: new Vector2()},
     radius: {value: kVisibleRadius},
-    hasField: {value: 0},
     field: {value: new Vector4()},
     penalty: {value: new Vector2()},
     turf: {value: new Color()},
     lines: {value: new Color()},
     contact: {value: (kVisibleRadius / kContactWidth) ** 2},
   };
+  private readonly material = new ShaderMaterial({
+    vertexShader: kVertexShader, fragmentShader: kFragmentShader, depthWrite: false, uniforms: this.uniforms});
   private readonly ground = new Group();
   private readonly shadow = new Mesh(undefined, new ShadowMaterial({opacity: 0.45, depthWrite: false}));
   /** Ring around a spot that was tapped. */
@@ -101,8 +98,7 @@ export class Floor {
 
   constructor() {
     const plane = new CircleGeometry(kVisibleRadius, 64).rotateX(-Math.PI / 2);
-    const ground = new Mesh(plane, new ShaderMaterial({
-      vertexShader: kVertexShader, fragmentShader: kFragmentShader, depthWrite: false, uniforms: this.uniforms}));
+    const ground = new Mesh(plane, this.material);
     // After what is opaque, over nothing: without blending, which costs a processor more than the lines.
     ground.renderOrder = 1;
     const {shadow} = this;
@@ -117,16 +113,17 @@ export class Floor {
 
   /** Shows the lines of a field; without, a plain grid of 0.25 m. */
   setField(lines: FieldLines): void {
-    const {hasField, field, penalty} = this.uniforms;
-    hasField.value = 1;
+    const {field, penalty} = this.uniforms;
+    this.material.defines["HAS_FIELD"] = "";
+    this.material.needsUpdate = true;
     field.value.set(lines.length / 2, lines.width / 2, lines.lineWidth / 2, lines.centreCircleDiameter / 2);
     penalty.value.set(lines.penaltyAreaLength, lines.penaltyAreaWidth / 2);
   }
 
   /** @param turf,lines  as in style sheets. */
   setColors(turf: string, lines: string): void {
-    this.uniforms.turf.value.set(turf);
-    this.uniforms.lines.value.set(lines);
+    this.uniforms.turf.value.setStyle(turf, LinearSRGBColorSpace);
+    this.uniforms.lines.value.setStyle(lines, LinearSRGBColorSpace);
   }
 
   /** Whether the robot's shadow is drawn on it. */

@@ -36,7 +36,7 @@ export async function loadRobot(urdfUrl: URL, surface: RobotSurface, progress: (
 async function loadMesh(loader: GLTFLoader, url: URL, surface: RobotSurface): Promise<Mesh | null> {
   try {
     const bytes = await (await fetchFile(url)).arrayBuffer();
-    return surface.meshOf((await loader.parseAsync(bytes, "")).scene);
+    return await surface.meshOf((await loader.parseAsync(bytes, "")).scene);
   } catch (error) {
     if (error instanceof NoAnswer) throw error;
     return null;

@@ -1,4 +1,4 @@
-import {BoxGeometry, Color, Group, Mesh, MeshStandardMaterial} from "three";
+import {BoxGeometry, Color, Group, Mesh, MeshStandardMaterial, SphereGeometry, Vector3} from "three";
 import {describe, expect, it} from "vitest";
 import {PlainMaterial} from "./plain_material";
 import {RobotSurface} from "./robot_surface";
@@ -13,8 +13,8 @@ function makeScene(): Group {
 }
 
 describe("RobotSurface", () => {
-  it("makes one mesh of a file's parts, each where it was and in its colour", () => {
-    const mesh = new RobotSurface(false).meshOf(makeScene())!;
+  it("makes one mesh of a file's parts, each where it was and in its colour", async () => {
+    const mesh = (await new RobotSurface(false).meshOf(makeScene()))!;
     const places = mesh.geometry.getAttribute("position");
     const colors = mesh.geometry.getAttribute("color");
     expect(places.count).toBe(48);
@@ -27,17 +27,17 @@ describe("RobotSurface", () => {
     expect(mesh.geometry.boundingBox!.max.z).toBeCloseTo(1.5, 6);
   });
 
-  it("has one material for all links, a plain one where pixels are dear", () => {
+  it("has one material for all links, a plain one where pixels are dear", async () => {
     const surface = new RobotSurface(true);
-    const [a, b] = [surface.meshOf(makeScene())!, surface.meshOf(makeScene())!];
+    const [a, b] = [(await surface.meshOf(makeScene()))!, (await surface.meshOf(makeScene()))!];
     expect(a.material).toBe(b.material);
     expect(a.material).toBeInstanceOf(PlainMaterial);
   });
 
-  it("lets one see through the robot, which throws no shadow then, and back", () => {
+  it("lets one see through the robot, which throws no shadow then, and back", async () => {
     const surface = new RobotSurface(false);
     const robot = new Group();
-    const mesh = surface.meshOf(makeScene())!;
+    const mesh = (await surface.meshOf(makeScene()))!;
     robot.add(mesh);
     surface.setGhost(true, robot);
     expect(mesh).toMatchObject({castShadow: false, material: {transparent: true}});
@@ -45,7 +45,24 @@ describe("RobotSurface", () => {
     expect(mesh).toMatchObject({castShadow: true, material: {transparent: false, opacity: 1}});
   });
 
-  it("has nothing to show for a file without meshes", () => {
-    expect(new RobotSurface(false).meshOf(new Group())).toBeNull();
+  it("has far fewer triangles where a processor draws, within 1.5 mm of the surface", async () => {
+    const scene = new Group();
+    scene.add(new Mesh(new SphereGeometry(0.05, 48, 32), new MeshStandardMaterial()));
+    const numTriangles = async (isPlain: boolean) =>
+        (await new RobotSurface(isPlain).meshOf(scene))!.geometry.index!.count / 3;
+    expect(await numTriangles(true)).toBeLessThan(0.3 * await numTriangles(false));
+    const {geometry} = (await new RobotSurface(true).meshOf(scene))!;
+    const places = geometry.getAttribute("position");
+    const [a, b, c] = [new Vector3(), new Vector3(), new Vector3()];
+    for (let i = 0; i < geometry.index!.count; i += 3) {
+      [a, b, c].forEach((corner, k) => corner.fromBufferAttribute(places, geometry.index!.getX(i + k)));
+      const middle = a.clone().add(b).add(c).divideScalar(3).length();
+      expect(middle).toBeGreaterThan(0.05 - 2 * 0.0015);
+      expect(middle).toBeLessThan(0.05 + 1e-6);
+    }
+  });
+
+  it("has nothing to show for a file without meshes", async () => {
+    expect(await new RobotSurface(false).meshOf(new Group())).toBeNull();
   });
 });

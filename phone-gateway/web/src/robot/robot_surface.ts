@@ -21,13 +21,15 @@ export class RobotSurface {
   }
 
   /** One mesh of all meshes in a file's scene. Null if there is none. */
-  meshOf(scene: Object3D): Mesh | null {
-    const parts: BufferGeometry[] = [];
+  async meshOf(scene: Object3D): Promise<Mesh | null> {
+    const coarse = this.isPlain ? (await import("./coarse")).coarse : null;
+    const meshes: Mesh[] = [];
     scene.updateMatrixWorld(true);
     scene.traverse((object) => {
-      const mesh = object as Mesh;
-      if (mesh.isMesh) parts.push(painted(mesh));
+      if ((object as Mesh).isMesh) meshes.push(object as Mesh);
     });
+    const parts = await Promise.all(meshes.map(async (mesh) =>
+        painted(mesh, coarse ? await coarse(mesh.geometry) : mesh.geometry.clone())));
     if (parts.length === 0) return null;
     const mesh = new Mesh(mergeGeometries(parts), this.material);
     mesh.castShadow = true;
@@ -48,12 +50,12 @@ export class RobotSurface {
   }
 }
 
-/** The mesh's geometry in the scene's frame, with its material's colour in each corner. What shines by
+/** The shape of a mesh in the scene's frame, with its material's colour in each corner. What shines by
  * itself is brighter than white. */
-function painted(mesh: Mesh): BufferGeometry {
+function painted(mesh: Mesh, shape: BufferGeometry): BufferGeometry {
   const {color, emissive} = mesh.material as MeshStandardMaterial;
   const {r, g, b} = new Color().copy(color).add(emissive);
-  const geometry = mesh.geometry.clone().applyMatrix4(mesh.matrixWorld);
+  const geometry = shape.applyMatrix4(mesh.matrixWorld);
   const numCorners = geometry.getAttribute("position").count;
   const colors = new Float32Array(3 * numCorners);
   for (let i = 0; i < numCorners; i++) colors.set([r, g, b], 3 * i);
