@@ -68,8 +68,8 @@ GatewayDaemon::GatewayDaemon(Bus& bus, const std::vector<naoremote::RobotDescrip
           },
           std::move(exhibition)) {
   for (size_t i = 0; i < links_.size(); ++i) {
-    links_[i]->subscribe(core_.robot(i), [this, i](const CachedImage& image) {
-      core_.add_image(i, image, monotonic_seconds());
+    links_[i]->subscribe(core_.robot(i), [this, i](CachedImage image) {
+      core_.add_image(i, std::move(image), monotonic_seconds());
     });
   }
   subscribe();

@@ -31,11 +31,12 @@ RobotSetup RobotLink::setup() {
            [this](const SentPlayCommand& command) { send_play(command); }}};
 }
 
-void RobotLink::subscribe(GatewayRobot& robot,
-                          const std::function<void(const CachedImage&)>& add_image) {
-  bus_.subscribe<naolcm::robot_state_t>(
-      channels_.robot_state, Bus::Queue::kLatest, [this, &robot](const auto& message) {
-        robot.set_state(robot_state_reader_.read(message), monotonic_seconds());
+void RobotLink::subscribe(GatewayRobot& robot, const std::function<void(CachedImage)>& add_image) {
+  // The most frequent one: the memory of its lists is used again.
+  bus_.subscribe_encoded(
+      channels_.robot_state, Bus::Queue::kLatest, [this, &robot](const RawMessage& raw) {
+        if (!decode_message(raw.bytes, robot_state_)) throw MessageError("it is damaged");
+        robot.set_state(robot_state_reader_.read(robot_state_), monotonic_seconds());
       });
   bus_.subscribe<naolcm::motion_state_t>(
       channels_.motion_state, Bus::Queue::kLatest, [&robot](const auto& message) {
@@ -63,7 +64,7 @@ void RobotLink::subscribe(GatewayRobot& robot,
 }
 
 void RobotLink::subscribe_perception(GatewayRobot& robot,
-                                     const std::function<void(const CachedImage&)>& add_image) {
+                                     const std::function<void(CachedImage)>& add_image) {
   bus_.subscribe<naolcm::speech_audio_t>(
       channels_.speech_audio, Bus::Queue::kAll,
       [&robot](const auto& message) { robot.streams().add_audio(read_audio(message)); });

@@ -34,7 +34,7 @@ class RobotLink {
   RobotSetup setup();
 
   /** Passes received messages to `robot`, which must outlive this, and images to `add_image`. */
-  void subscribe(GatewayRobot& robot, const std::function<void(const CachedImage&)>& add_image);
+  void subscribe(GatewayRobot& robot, const std::function<void(CachedImage)>& add_image);
 
   /** Publishes image requests. @param always  Also unchanged ones. */
   void send_camera_requests(std::vector<CameraRequest> requests, bool always);
@@ -43,8 +43,7 @@ class RobotLink {
   const std::string& motion_state_channel() const { return channels_.motion_state; }
 
  private:
-  void subscribe_perception(GatewayRobot& robot,
-                            const std::function<void(const CachedImage&)>& add_image);
+  void subscribe_perception(GatewayRobot& robot, const std::function<void(CachedImage)>& add_image);
   void send_drag(const DragCommand& drag);
   void send_service(const ServiceCommand& command);
   void send_play(const SentPlayCommand& command);
@@ -56,6 +55,7 @@ class RobotLink {
   int64_t last_drag_id_;
   CommandPublisher commands_;
   RobotStateReader robot_state_reader_;
+  naolcm::robot_state_t robot_state_;
   std::vector<CameraRequest> last_requests_;
   ImageSizes image_sizes_;
 };

@@ -106,8 +106,8 @@ class GatewayCore {
   std::vector<CameraRequest> camera_requests(size_t robot, double now) const {
     return robots_.camera_requests(robot, now);
   }
-  void add_image(size_t robot, const CachedImage& image, double now) {
-    robots_.add_image(robot, image, now);
+  void add_image(size_t robot, CachedImage image, double now) {
+    robots_.add_image(robot, std::move(image), now);
   }
   void set_players(std::vector<PlayerLabel> players) { robots_.set_players(std::move(players)); }
   void set_match(naoremote::Match match, double now) { match_.set(std::move(match), now); }

@@ -78,21 +78,21 @@ naoremote::RobotList Robots::list() const {
 }
 
 std::vector<CameraRequest> Robots::camera_requests(size_t robot, double now) const {
-  std::vector<CameraRequest> requests = at(robot).streams().camera_requests(now);
-  std::erase_if(requests, [](const CameraRequest& request) {
+  const auto is_overview = [](const CameraRequest& request) {
     return request.image.camera == kOverviewCamera;
-  });
-  if (robot != 0) return requests;
-  for (const auto& other : robots_) {
-    for (const CameraRequest& request : other->streams().camera_requests(now)) {
-      if (request.image.camera == kOverviewCamera) merge(request, requests);
+  };
+  std::vector<CameraRequest> requests = at(robot).streams().camera_requests(now);
+  if (robot != 0) std::erase_if(requests, is_overview);
+  for (size_t other = 1; robot == 0 && other < size(); ++other) {
+    for (const CameraRequest& request : at(other).streams().camera_requests(now)) {
+      if (is_overview(request)) merge(request, requests);
     }
   }
   return requests;
 }
 
-void Robots::add_image(size_t robot, const CachedImage& image, double now) {
-  if (image.camera != kOverviewCamera) return at(robot).add_image(image, now);
+void Robots::add_image(size_t robot, CachedImage image, double now) {
+  if (image.camera != kOverviewCamera) return at(robot).add_image(std::move(image), now);
   for (const auto& other : robots_) other->streams().add_image(image, now);
 }
 

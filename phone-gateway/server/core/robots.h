@@ -57,7 +57,7 @@ class Robots {
    * from the first one the overview for the clients of all robots. */
   std::vector<CameraRequest> camera_requests(size_t robot, double now) const;
   /** An image that the camera program of a robot sent. */
-  void add_image(size_t robot, const CachedImage& image, double now);
+  void add_image(size_t robot, CachedImage image, double now);
 
   /** Steps every robot, and sends the list if it has changed. */
   void step(double now);

@@ -105,6 +105,22 @@ TEST_F(GatewayDaemonTest, ACamerasStatusCountsForItsRobotOnly) {
   EXPECT_TRUE(daemon_.core().robot(1).components().is_available(Component::kCamera));
 }
 
+TEST_F(GatewayDaemonTest, AStateThatIsDamagedOrHasNoJointsIsDropped) {
+  const auto position = [this] {
+    return daemon_.core().robot(1).streams().mirror().robot().joint_position;
+  };
+  const std::vector<double> before = position();
+  ASSERT_EQ(before.size(), kJoints.size());
+  naolcm::robot_state_t state{};
+  state.utime = 1;
+  bus_.publish(RobotChannels("NAO2").robot_state, state);
+  const std::vector<uint8_t> damaged = {1, 2, 3};
+  bus_.publish_raw(RobotChannels("NAO2").robot_state, damaged);
+  bus_.handle();
+  EXPECT_EQ(bus_.counters().num_dropped, 2) << "no joints of the state before, either";
+  EXPECT_EQ(position(), before);
+}
+
 TEST_F(GatewayDaemonTest, TeamsAndNumbersComeFromTheMatch) {
   naolcm::match_state_t match{};
   naolcm::player_t player{};
