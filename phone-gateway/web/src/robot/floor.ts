@@ -1,8 +1,8 @@
 /** The ground: turf with the lines of the field, fading out around the robot. Lines are computed
  * per pixel, as in the head camera's image, so that they stay sharp without a texture. */
 import {
-  CircleGeometry, Color, Group, LinearSRGBColorSpace, Mesh, MeshBasicMaterial, PlaneGeometry, RingGeometry, ShaderMaterial, ShadowMaterial,
-  Vector2, Vector4,
+  CircleGeometry, Color, Group, LinearSRGBColorSpace, Mesh, MeshBasicMaterial, PlaneGeometry, RingGeometry, ShaderMaterial,
+  ShadowMaterial, Vector2, Vector4,
 } from "three";
 
 /** The lines of a field, m; see data/scenes/soccer.yaml for the meaning. */
@@ -30,18 +30,21 @@ const kVertexShader = `
     gl_Position = projectionMatrix * viewMatrix * world;
   }`;
 
-/** Colors as the screen shows them: blended without a conversion, which would cost a processor more than the lines. */
+/** Colors as the screen shows them: blended without a conversion, which would cost a processor more than the lines.
+ * field: half length, half width, half line width, circle radius; penalty area: length, half width; contact: squared radius over
+ * the squared width of a soft darkness around the feet, about exp(-contact d^2), where shadows cost too much as well.
+ * cover(): fraction of a pixel, 1 / perPixel wide, that is so far inside a line of half width w. Lines are those across and along
+ * (goal lines and halfway line, sidelines), and those of the penalty area. */
 const kFragmentShader = `
   varying vec2 place;
   uniform vec2 centre;
   uniform float radius;
-  uniform vec4 field;    // half length, half width, half line width, circle radius
-  uniform vec2 penalty;  // penalty area: length, half width
+  uniform vec4 field;
+  uniform vec2 penalty;
   uniform vec3 turf;
   uniform vec3 lines;
-  uniform float contact;  // of the darkness around the feet: squared radius over its squared width
+  uniform float contact;
 
-  // Fraction of a pixel, 1 / perPixel wide, that is so far inside a line of half width w.
   vec2 cover(vec2 inside, float w, vec2 perPixel) {
     return clamp(inside * perPixel + 0.5, 0.0, 1.0) * min(vec2(1.0), 2.0 * w * perPixel + 0.15);
   }
@@ -50,7 +53,6 @@ const kFragmentShader = `
     vec2 a = abs(p);
     float w = field.z;
     float depth = field.x - a.x;
-    // Lines across and along: goal lines and halfway line, sidelines; those of the penalty area.
     vec2 across = vec2(w) - vec2(min(abs(depth), a.x), abs(a.y - field.y));
     vec2 box = vec2(w) - abs(vec2(depth, a.y) - penalty);
     vec2 inBox = step(vec2(a.y, depth), penalty.yx + w);
@@ -65,7 +67,6 @@ const kFragmentShader = `
   void main() {
     vec3 color = mix(turf, lines, drawn(place, fwidth(place) + 1e-6));
     float d = distance(place, centre) / radius;
-    // A soft darkness around the feet, where shadows cost too much as well: about exp(-contact d^2).
     float near = max(0.0, 1.0 - 0.25 * contact * d * d);
     near *= near;
     color *= 1.0 - 0.24 * near * near;
