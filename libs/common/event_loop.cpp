@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <cmath>
 #include <csignal>
@@ -25,6 +26,13 @@ timespec to_timespec(double seconds) {
   return result;
 }
 
+/** Thread of the newest loop, to which other threads pass signals on. */
+std::atomic<pthread_t> loop_thread;
+
+void pass_on(int signal) {
+  pthread_kill(loop_thread, signal);
+}
+
 }  // namespace
 
 EventLoop::EventLoop() {
@@ -35,6 +43,13 @@ EventLoop::EventLoop() {
   // Blocked signals are read from a descriptor like any other event: no handler interrupts a step,
   // and no signal is lost between a check and poll().
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+  // Threads that were there before, as those of OpenBLAS, do not block them.
+  loop_thread = pthread_self();
+  struct sigaction action {};
+  action.sa_handler = pass_on;
+  action.sa_flags = SA_RESTART;
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
   signal_descriptor_ = signalfd(-1, &signals, SFD_CLOEXEC | SFD_NONBLOCK);
   if (signal_descriptor_ < 0) {
     throw Error(std::string("cannot create a signal descriptor: ") + std::strerror(errno));

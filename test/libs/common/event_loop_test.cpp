@@ -6,7 +6,9 @@
 #include <array>
 #include <cmath>
 #include <csignal>
+#include <future>
 #include <string>
+#include <thread>
 
 #include "common/wall_clock.h"
 
@@ -17,6 +19,22 @@ TEST(EventLoop, EndsOnSigtermWithItsName) {
   EventLoop loop;
   loop.every(0.001, [] { kill(getpid(), SIGTERM); });
   EXPECT_EQ(loop.run(), "SIGTERM");
+}
+
+// As a library's thread that was started when the program was loaded.
+TEST(EventLoop, EndsWhenAThreadThatDoesNotBlockSignalsGetsOne) {
+  std::promise<void> end;
+  std::thread other([until = end.get_future()] {
+    sigset_t signals;
+    sigfillset(&signals);
+    pthread_sigmask(SIG_UNBLOCK, &signals, nullptr);
+    until.wait();
+  });
+  EventLoop loop;
+  loop.every(0.001, [&] { pthread_kill(other.native_handle(), SIGTERM); });
+  EXPECT_EQ(loop.run(), "SIGTERM");
+  end.set_value();
+  other.join();
 }
 
 TEST(EventLoop, CallsTheHandlerOfAReadableDescriptor) {
