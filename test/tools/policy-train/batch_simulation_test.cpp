@@ -83,7 +83,7 @@ TEST(BatchSimulation, EndsAnEpisodeWithAFallAndBeginsTheNext) {
   // The observation is the next episode's first: upright. That of the end: tipped over.
   EXPECT_NEAR(rows.observations[5], -1, 0.01);
   EXPECT_NEAR(rows.privileged[6], 0, 0.02);
-  EXPECT_GT(rows.final_observations[5], -0.7F);
+  EXPECT_GT(rows.final_observations[5], -0.83F);
 }
 
 TEST(BatchSimulation, HasTheRobotsOfASeed) {
