@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 
 #include "daemons/motion/falls/fall_monitor.h"
 #include "kinematics/pose2.h"
@@ -22,14 +23,11 @@ bool StandingBalance::must_step(const RobotState& state) const {
   const Eigen::Vector2d ahead(std::cos(heading), std::sin(heading));
   const double capture_point = ahead.dot(calc_capture_point(state));
   // A robot that is lifted has no support polygon.
-  const auto is_beyond = [&](double sign) {
-    const auto is_farther = [&](const Eigen::Vector2d& corner) {
-      return sign * (ahead.dot(corner) - capture_point) >= gains_->step_margin;
-    };
-    const auto& corners = state.support_polygon_in_odometry;
-    return !corners.empty() && std::none_of(corners.begin(), corners.end(), is_farther);
-  };
-  return is_beyond(1) || is_beyond(-1);
+  const auto& corners = state.support_polygon_in_odometry;
+  if (corners.empty()) return false;
+  const auto [heels, toes] = std::ranges::minmax(
+      corners | std::views::transform([&](const auto& corner) { return ahead.dot(corner); }));
+  return toes - capture_point < gains_->step_margin || capture_point - heels < gains_->step_margin;
 }
 
 void StandingBalance::add_to(const RobotState& state, std::vector<double>& position) const {
