@@ -6,6 +6,7 @@
 #include <cmath>
 #include <initializer_list>
 #include <limits>
+#include <string>
 
 #include "common/constants.h"
 #include "tools/nao/text_table.h"

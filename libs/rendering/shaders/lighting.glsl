@@ -2,7 +2,6 @@
 // ambient light of sky and ground; SceneAppearance has their intensities. Colors are linear light;
 // encoded() is the last step.
 // WITH_SHADOW: the light is looked up in the shadow map.
-// 
 uniform vec3 eye_position;
 uniform vec3 light_direction;
 uniform mat4 shadow_from_world;
