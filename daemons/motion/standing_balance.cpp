@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ranges>
 
 #include "daemons/motion/falls/fall_monitor.h"
 #include "kinematics/pose2.h"
@@ -25,9 +24,10 @@ bool StandingBalance::must_step(const RobotState& state) const {
   // A robot that is lifted has no support polygon.
   const auto& corners = state.support_polygon_in_odometry;
   if (corners.empty()) return false;
-  const auto [heels, toes] = std::ranges::minmax(
-      corners | std::views::transform([&](const auto& corner) { return ahead.dot(corner); }));
-  return toes - capture_point < gains_->step_margin || capture_point - heels < gains_->step_margin;
+  const auto [heel, toe] = std::ranges::minmax(
+      corners, {}, [&](const Eigen::Vector2d& corner) { return ahead.dot(corner); });
+  return ahead.dot(toe) - capture_point < gains_->step_margin ||
+         capture_point - ahead.dot(heel) < gains_->step_margin;
 }
 
 void StandingBalance::add_to(const RobotState& state, std::vector<double>& position) const {

@@ -31,6 +31,7 @@ TEST(EventLoop, EndsWhenAThreadThatDoesNotBlockSignalsGetsOne) {
     until.wait();
   });
   EventLoop loop;
+  // NOLINTNEXTLINE(bugprone-bad-signal-to-kill-thread): the thread passes the signal on.
   loop.every(0.001, [&] { pthread_kill(other.native_handle(), SIGTERM); });
   EXPECT_EQ(loop.run(), "SIGTERM");
   end.set_value();
