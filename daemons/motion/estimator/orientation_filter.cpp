@@ -16,9 +16,6 @@ constexpr double kTiltGain = 0.5;
 // Integral gain k_I, 1/s^2. Chosen: below k_P^2 / 4 = 0.0625, above which the correction of tilt
 // and bias oscillates.
 constexpr double kBiasGain = 0.02;
-// Time constant with which the bias follows the gyroscope at rest, s. Chosen: averages a hundred
-// measurements, and is shorter than most rests between two motions.
-constexpr double kRestTimeConstant = 1.0;
 // Deviation of |a| from gravity at which the weight q of the accelerometer reaches 0, m/s^2.
 // Chosen: a third of gravity.
 constexpr double kZeroWeightDeviation = 3.0;
@@ -28,9 +25,6 @@ constexpr double kRestDeviation = 0.5;
 // Angle between estimated and measured up at rest at which the estimate is replaced, rad. Chosen:
 // far above the filter's error, below any change of the side on which a robot lies.
 constexpr double kLostTilt = 0.3;
-// Largest bias, rad/s. Chosen: 50 standard deviations of the simulated gyroscope's bias; a sensor
-// with more is broken.
-constexpr double kMaxBias = 0.1;
 
 bool measures_gravity(const Eigen::Vector3d& accelerometer) {
   return std::abs(accelerometer.norm() - kGravity) < kRestDeviation;

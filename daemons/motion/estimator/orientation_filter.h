@@ -45,8 +45,18 @@ class OrientationFilter {
   const Eigen::Vector3d& angular_velocity() const { return angular_velocity_; }
   /** Estimated bias of the gyroscope, rad/s, T. */
   const Eigen::Vector3d& bias() const { return bias_; }
+  /** Whether the robot has rested long enough for the bias to be known. */
+  bool has_learnt_bias() const { return learnt_time_ >= kRestTimeConstant; }
+
+  /** Largest bias that is estimated, rad/s. Chosen: 50 standard deviations of the simulated
+   * gyroscope's bias; a sensor with more is broken. */
+  static constexpr double kMaxBias = 0.1;
 
  private:
+  /** Time constant with which the bias follows the gyroscope at rest, s. Chosen: averages a hundred
+   * measurements, and is shorter than most rests between two motions. */
+  static constexpr double kRestTimeConstant = 1.0;
+
   void start(const Eigen::Vector3d& gyroscope, const Eigen::Vector3d& accelerometer);
   /** Replaces an estimate that contradicts gravity at rest. */
   void recover(const Eigen::Vector3d& accelerometer);

@@ -73,6 +73,8 @@ class StateEstimator {
   RobotState state_;
   bool is_started_ = false;
   double rest_time_ = 0;
+  /** Of the gyroscope, in T, rad/s. */
+  Eigen::Vector3d mean_rate_ = Eigen::Vector3d::Zero();
 
   bool is_left_support_ = true;
   /** p_OS: x and y of the support foot's sole in O, m. */

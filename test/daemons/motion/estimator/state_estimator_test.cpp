@@ -53,6 +53,19 @@ TEST(StateEstimator, FollowsATurnAndLearnsTheBias) {
   EXPECT_NEAR(std::atan2(turned(1, 0), turned(0, 0)) - heading, 0.5, 5e-3);
 }
 
+// An offset of 4 degrees/s: B-Human 2025 met above 3.
+TEST(StateEstimator, LearnsABiasAboveTheAngularVelocityOfARest) {
+  StateEstimator estimator(nao_model());
+  Sensors sensors = standing("StandInit", 0);
+  sensors.gyroscope_torso = {0.01, 0.07, -0.02};
+  for (int i = 0; i < 150; ++i) estimator.update(sensors, 0.01);
+  EXPECT_NEAR(estimator.state().angular_velocity_torso.norm(), 0, 1e-3);
+  // Once it is known, a slow turn is no bias.
+  sensors.gyroscope_torso.z() += 0.07;
+  for (int i = 0; i < 200; ++i) estimator.update(sensors, 0.01);
+  EXPECT_NEAR(estimator.state().angular_velocity_torso.z(), 0.07, 1e-3);
+}
+
 TEST(StateEstimator, UsesTheInertialUnitsOrientationWhenItStartsInAFall) {
   // In free fall the accelerometer measures almost nothing, in any direction.
   StateEstimator estimator(nao_model());
