@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 
+#include "kinematics/pose2.h"
 #include "robot_model/scene_file.h"
 #include "sim/closed_loop/closed_loop.h"
 #include "tools/nao-trial/fall_warning.h"
@@ -72,6 +73,25 @@ TEST_F(WalkPhysicsTest, WalksAheadAndStandsAgain) {
   EXPECT_EQ(end->status, ResultStatus::kDone) << end->reason;
   trial.run(0.5);
   expect_standing_in("StandInit");
+}
+
+TEST_F(WalkPhysicsTest, UsedRobotsOnCarpetTurnAtThreeQuartersOfARadianASecond) {
+  // The last two have a dead foot sensor, and a gyroscope offset of 3 degrees/s.
+  for (const uint64_t seed : {505, 507, 513, 528}) {
+    ClosedLoop& trial = begin(seed, 0, "real");
+    trial.hold_walk({0, 0, 1.5});
+    trial.run(2.5);
+    double turn = 0;
+    double last = heading();
+    trial.on_tick([&] {
+      turn += wrapped(heading() - last);
+      last = heading();
+    });
+    trial.run(5);
+    EXPECT_EQ(mode(), Mode::kWalking) << seed;
+    EXPECT_LT(trial.torso_tilt(), 0.3) << seed;
+    EXPECT_GT(turn / 5, 0.75) << seed;
+  }
 }
 
 TEST_F(WalkPhysicsTest, WalksSidewaysBackAndTurns) {
