@@ -109,6 +109,7 @@ export class Stage {
     makeRobotAxes(this.robotAxes);
     this.addLights();
     this.scene.add(this.robotAxes, this.floor.object);
+    this.takeColors();
     new ResizeObserver(() => this.resize()).observe(canvas);
     this.resize();
   }
@@ -120,6 +121,13 @@ export class Stage {
     this.robotAxes.add(robot.torso);
     this.fitShadow();
     this.frameRobot();
+  }
+
+  /** The ground has the colors of the style sheet. */
+  takeColors(): void {
+    const style = getComputedStyle(document.documentElement);
+    this.floor.setColors(style.getPropertyValue("--turf"), style.getPropertyValue("--turf-line"));
+    this.outdate();
   }
 
   /** Something else than the robot's pose or the eye looks different: the next frame is drawn. */
