@@ -173,9 +173,7 @@ export class App implements Actions {
     this.store.watch((state) => state.exhibition !== null, (isOn) => {
       if (isOn) void this.visit();
     });
-    const scheme = matchMedia("(prefers-color-scheme: light)");
-    scheme.addEventListener("change", () => this.takeColors());
-    this.takeColors();
+    matchMedia("(prefers-color-scheme: light)").addEventListener("change", () => this.stage.takeColors());
     this.held.listen(() => this.root.dataset["screen"] === "controller");
     this.store.watch((state) => state.unavailableComponents.includes(Notice_Component.CAMERA), (isOff) => this.image.setOff(isOff));
     // Another motion replaces the walk to the marked spot.
@@ -229,13 +227,6 @@ export class App implements Actions {
     const {Visit} = await import("./exhibition/visit");
     await Visit.begin(this.store, this.commander, this.root, this.root.querySelector<HTMLElement>(".notes")!, storage(),
                       () => this.letGo());
-  }
-
-  /** The stage has the colors of the style sheet. */
-  private takeColors(): void {
-    const style = getComputedStyle(document.documentElement);
-    this.stage.floor.setColors(style.getPropertyValue("--turf"), style.getPropertyValue("--turf-line"));
-    this.stage.outdate();
   }
 
   /** A link with a token, or an address used before, connects at once. */

@@ -159,3 +159,50 @@ for (const {name, size: [width, height], options, ...page} of kPasses.filter((pa
     assert.deepEqual(faults, []);
   });
 }
+
+/** In the page: how many edges there are in the frame that is drawn next, between pixels two apart, and how many of them are
+ * smooth: the pixel between lies between both. */
+async function countEdges() {
+  const canvas = document.querySelector("canvas.stage");
+  const {numFrames} = window.naoRemote;
+  while (window.naoRemote.numFrames === numFrames) await new Promise(requestAnimationFrame);
+  const {width, height} = canvas;
+  const copy = Object.assign(document.createElement("canvas"), {width, height}).getContext("2d");
+  copy.drawImage(canvas, 0, 0);
+  const {data} = copy.getImageData(0, 0, width, height);
+  let numEdges = 0;
+  let numSmooth = 0;
+  for (let i = 4; i < data.length - 4; i += 4) {
+    const [before, at, after] = [data[i - 4], data[i], data[i + 4]];
+    if (Math.abs(after - before) < 60) continue;
+    numEdges++;
+    if (Math.abs(2 * at - before - after) < 0.6 * Math.abs(after - before)) numSmooth++;
+  }
+  return {numEdges, numSmooth, ratio: width / canvas.clientWidth};
+}
+
+test("where a processor draws large pixels their edges are smooth", async (t) => {
+  const phone = await Phone.open(browser, "about:blank", {width: 1280, height: 800}, kDesk);
+  // The field's lines would be edges too.
+  await phone.context.route("**/scene.yaml", (route) => route.fulfill({body: ""}));
+  await phone.page.goto(fake.url);
+  await phone.sees("controller");
+  // As a page that is slow to draw.
+  await phone.page.evaluate(() => {
+    const spend = () => {
+      const end = performance.now() + 40;
+      while (performance.now() < end);
+      requestAnimationFrame(spend);
+    };
+    spend();
+  });
+  await phone.page.keyboard.down("w");
+  // What smooths them is fetched then.
+  const found = await until("fewer pixels are drawn, and a sixth of the edges is smooth", async () => {
+    const found = await phone.page.evaluate(countEdges);
+    return found.ratio < 0.6 && found.numEdges > 100 && found.numSmooth > found.numEdges / 6 && found;
+  });
+  t.diagnostic(`${found.numSmooth} of ${found.numEdges} edges are smooth`);
+  assert.deepEqual(phone.errors, []);
+  await phone.close();
+});

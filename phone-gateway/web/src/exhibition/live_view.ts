@@ -32,8 +32,6 @@ export class LiveView {
       image: ({jpeg}) => this.showImage(jpeg as Uint8Array<ArrayBuffer>),
       notice: () => {},
     });
-    const style = getComputedStyle(document.documentElement);
-    this.stage.floor.setColors(style.getPropertyValue("--turf"), style.getPropertyValue("--turf-line"));
     void loadFieldLines(location.href).then((lines) => {
       if (lines) this.stage.floor.setField(lines);
       this.stage.outdate();

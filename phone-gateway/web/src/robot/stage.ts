@@ -18,6 +18,7 @@ import type {PostureFigure} from "./posture_figure";
 import type {Postures} from "./posture_file";
 import {RobotSurface} from "./robot_surface";
 import type {RobotTree} from "./robot_tree";
+import type {SmoothEdges} from "./smooth_edges";
 
 /** View over the right shoulder, from behind: the robot's forward direction is up on the screen. */
 export const kDriveView: View = {azimuth: -0.42, elevation: 0.30};
@@ -26,10 +27,10 @@ export const kJointsView: View = {azimuth: Math.PI - 0.35, elevation: 0.14};
 
 const kFieldOfViewDeg = 32;
 /** Device pixels per CSS pixel at the least. Below the first, pixels are seen as squares; a processor that draws
- * has rather squares than a robot that comes late. */
+ * smooths the edges of larger ones. */
 const kMinPixelRatio = 0.75;
 const kSoftwarePixelRatio = 0.75;
-const kMinSoftwarePixelRatio = 0.5;
+const kMinSoftwarePixelRatio = 0.42;
 /** Time between two frames at the least where a processor draws, ms: two of the screen's, 30 a second. More would take what
  * simulates the robot, perhaps on the same processor. */
 const kSoftwareFramePeriodMs = 30;
@@ -74,6 +75,7 @@ export class Stage {
   /** Everything in here is given in the robot's axes. */
   readonly robotAxes = new Group();
   private readonly sun = new DirectionalLight(0xfff2e0, 2.6);
+  private edges: SmoothEdges | null = null;
   private readonly budget: PixelBudget;
   private readonly framePeriodMs: number;
   /** The robot that is shown; null before the first. Only read by others, as its height, m. */
@@ -107,6 +109,7 @@ export class Stage {
     makeRobotAxes(this.robotAxes);
     this.addLights();
     this.scene.add(this.robotAxes, this.floor.object);
+    this.takeColors();
     new ResizeObserver(() => this.resize()).observe(canvas);
     this.resize();
   }
@@ -118,6 +121,13 @@ export class Stage {
     this.robotAxes.add(robot.torso);
     this.fitShadow();
     this.frameRobot();
+  }
+
+  /** The ground has the colors of the style sheet. */
+  takeColors(): void {
+    const style = getComputedStyle(document.documentElement);
+    this.floor.setColors(style.getPropertyValue("--turf"), style.getPropertyValue("--turf-line"));
+    this.outdate();
   }
 
   /** Something else than the robot's pose or the eye looks different: the next frame is drawn. */
@@ -178,6 +188,7 @@ export class Stage {
     this.drawnEye.copy(this.camera.position);
     this.drawnFocus.copy(this.eye);
     this.renderer.render(this.scene, this.camera);
+    if (this.robot && !isSharp) this.edges?.draw(this.renderer, this.robot.torso, this.camera);
     this.numFrames++;
   }
 
@@ -229,6 +240,7 @@ export class Stage {
     this.isSharp = false;
     this.renderer.setPixelRatio(this.budget.pixelRatio);
     this.renderer.setSize(this.width, this.height, false);
+    void this.chooseEdges();
     const hasShadow = this.framePeriodMs === 0 && !this.budget.isLeast;
     this.renderer.shadowMap.enabled = this.sun.castShadow = hasShadow;
     this.floor.setShadow(hasShadow);
@@ -236,6 +248,13 @@ export class Stage {
     // The canvas is empty now.
     this.drawnMs = -Infinity;
     this.frameRobot();
+  }
+
+  /** Few pixels have smooth edges; where they are fetched in vain they are as they are. */
+  private async chooseEdges(): Promise<void> {
+    const isSmooth = () => this.framePeriodMs > 0 && this.budget.pixelRatio < kSoftwarePixelRatio;
+    const found = isSmooth() ? await import("./smooth_edges").catch(() => null) : null;
+    this.edges = found && isSmooth() ? this.edges ?? new found.SmoothEdges() : null;
   }
 
   /** A drawing of each posture. */
