@@ -188,7 +188,7 @@ export class Stage {
     this.drawnEye.copy(this.camera.position);
     this.drawnFocus.copy(this.eye);
     this.renderer.render(this.scene, this.camera);
-    if (this.robot && !isSharp) this.edges?.draw(this.renderer, this.robot.torso, this.camera);
+    if (this.robot && !isSharp && this.hasFewPixels) this.edges?.draw(this.renderer, this.robot.torso, this.camera);
     this.numFrames++;
   }
 
@@ -240,7 +240,8 @@ export class Stage {
     this.isSharp = false;
     this.renderer.setPixelRatio(this.budget.pixelRatio);
     this.renderer.setSize(this.width, this.height, false);
-    void this.chooseEdges();
+    // Where it is fetched in vain the edges are as they are.
+    if (this.hasFewPixels) void import("./smooth_edges").then(({SmoothEdges}) => this.edges ??= new SmoothEdges(), () => {});
     const hasShadow = this.framePeriodMs === 0 && !this.budget.isLeast;
     this.renderer.shadowMap.enabled = this.sun.castShadow = hasShadow;
     this.floor.setShadow(hasShadow);
@@ -250,11 +251,9 @@ export class Stage {
     this.frameRobot();
   }
 
-  /** Few pixels have smooth edges; where they are fetched in vain they are as they are. */
-  private async chooseEdges(): Promise<void> {
-    const isSmooth = () => this.framePeriodMs > 0 && this.budget.pixelRatio < kSoftwarePixelRatio;
-    const found = isSmooth() ? await import("./smooth_edges").catch(() => null) : null;
-    this.edges = found && isSmooth() ? this.edges ?? new found.SmoothEdges() : null;
+  /** Only where a processor draws. */
+  private get hasFewPixels(): boolean {
+    return this.budget.pixelRatio < kSoftwarePixelRatio;
   }
 
   /** A drawing of each posture. */
