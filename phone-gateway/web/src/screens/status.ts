@@ -36,9 +36,8 @@ export class Status {
       el("div", {class: "driver"}, this.robot, this.driver, this.ask), scoreboard(store));
     for (const part of ["state", "playState", "phase"] as const) store.watch((state) => state[part], () => this.showState());
     store.watch(ageWhileSilent, () => this.showState());
-    store.watch((state) => state.control, (control) => this.showDriver(control));
-    store.watch((state) => state.robots, () => this.showRobot());
-    store.watch((state) => state.robot, () => this.showRobot());
+    for (const part of ["control", "phase"] as const) store.watch((state) => state[part], () => this.showDriver());
+    for (const part of ["robots", "robot"] as const) store.watch((state) => state[part], () => this.showRobot());
   }
 
   private showState(): void {
@@ -57,7 +56,8 @@ export class Status {
     if (this.element.dataset["mode"] !== mode) this.element.dataset["mode"] = mode;
   }
 
-  private showDriver(control: Control | null): void {
+  private showDriver(): void {
+    const {control, phase} = this.store.get();
     const who = driverOf(control);
     this.element.dataset["control"] = who;
     const driver = who === "mine" ? say("control.mine") : who === "other" ? say("control.other", {name: control!.driverName}) :
@@ -65,8 +65,8 @@ export class Status {
     const isNext = this.isNext;
     const next = !control?.nextId ? "" : isNext ? say("control.youNext") : say("control.next", {name: control.nextName});
     setText(this.driver, next ? say("lobby.list", {first: driver, second: next}) : driver);
-    // While another client waits there is nothing to ask for, and its request has its own button.
-    this.ask.hidden = who === "free" || (control?.isMuted ?? false) || (next !== "" && !isNext);
+    // Without a link nobody hears it. While another client waits there is nothing to ask for, and its request has its own button.
+    this.ask.hidden = phase !== "connected" || who === "free" || (control?.isMuted ?? false) || (next !== "" && !isNext);
     setText(this.ask, say(who === "mine" ? "control.release" : isNext ? "control.withdraw" : "control.ask"));
   }
 
