@@ -45,7 +45,7 @@ EventLoop::EventLoop() {
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
   // Threads that were there before, as those of OpenBLAS, do not block them.
   loop_thread = pthread_self();
-  struct sigaction action {};
+  struct sigaction action = {};
   action.sa_handler = pass_on;
   action.sa_flags = SA_RESTART;
   sigaction(SIGINT, &action, nullptr);

@@ -26,11 +26,11 @@ constexpr double kGoldenRatioFraction = 0.6180339887;
  * (medians), and the gateway takes a tenth less processor time than with a phase for each. */
 constexpr uint32_t kClientsOfAPhase = 16;
 
-/** Calls use(image, rate) for each image that a client requests now. */
+/** Calls use(request) for each image that a client requests now. */
 template <class Use>
 void for_each_request(const ClientStreams& streams, double now, double poll_timeout, Use use) {
-  if (streams.subscription.image_rate > 0) use(streams.image(), streams.subscription.image_rate);
-  if (now - streams.last_poll < poll_timeout) use(streams.polled_image, kPolledImageRate);
+  if (streams.subscription.image_rate > 0) use({streams.image(), streams.subscription.image_rate});
+  if (now - streams.last_poll < poll_timeout) use({streams.polled_image, kPolledImageRate});
 }
 
 }  // namespace
@@ -193,11 +193,9 @@ void Streams::write_image(const CachedImage& cached, naoremote::Image& image, do
 // and quality that a client wants.
 std::vector<CameraRequest> Streams::camera_requests(double now) const {
   std::vector<CameraRequest> requests;
+  const auto add = [&](const CameraRequest& request) { merge(request, requests); };
   sessions_.for_each([&](const ClientSession& session) {
-    for_each_request(session.streams, now, limits_.poll_timeout,
-                     [&](const ImageSelection& image, double rate) {
-                       merge({image, rate}, requests);
-                     });
+    for_each_request(session.streams, now, limits_.poll_timeout, add);
   });
   return requests;
 }
@@ -205,10 +203,10 @@ std::vector<CameraRequest> Streams::camera_requests(double now) const {
 bool Streams::has_image_client(double now) const {
   return sessions_.has_any([&](const ClientSession& session) {
     bool is_requested = false;
-    for_each_request(session.streams, now, limits_.poll_timeout,
-                     [&](const ImageSelection& image, double) {
-                       is_requested |= image.camera != kOverviewCamera;
-                     });
+    const auto look = [&](const CameraRequest& request) {
+      is_requested |= request.image.camera != kOverviewCamera;
+    };
+    for_each_request(session.streams, now, limits_.poll_timeout, look);
     return is_requested;
   });
 }
