@@ -73,6 +73,7 @@ test("a killed gateway is told over the last view, with a button, and the app co
   await stack.end("nao-phone-gateway", "SIGKILL");
   await ana.page.locator('.cause [data-remedy="retry"]').waitFor();
   assert.ok(await ana.page.locator(".stage").isVisible(), "the view has gone");
+  assert.equal(await ana.page.locator(".driver-button:visible").count(), 0, "control is handed over without a link");
   await stack.startGateway();
   await ana.page.locator(".cause").waitFor({state: "hidden"});
   await until("images go on", async () => {

@@ -8,7 +8,7 @@ import {Mode} from "../protocol/generated/remote_pb";
 import type {Control} from "../protocol/generated/remote_pb";
 import {nameOf} from "../protocol/names";
 import {isStale} from "../store";
-import type {Store} from "../store";
+import type {AppState, Store} from "../store";
 import {activityInWords, modeInWords} from "../text/activity";
 import {batteryInWords, warningsInWords} from "../text/body";
 import {say} from "../text/texts";
@@ -34,10 +34,11 @@ export class Status {
     this.element = el("div", {class: "status"},
       el("div", {class: "status-line", role: "status"}, this.mode, this.activity), this.progress, this.body,
       el("div", {class: "driver"}, this.robot, this.driver, this.ask), scoreboard(store));
-    for (const part of ["state", "playState", "phase"] as const) store.watch((state) => state[part], () => this.showState());
+    const watch = (parts: (keyof AppState)[], show: () => void) => parts.forEach((part) => store.watch((state) => state[part], show));
+    watch(["state", "playState", "phase"], () => this.showState());
     store.watch(ageWhileSilent, () => this.showState());
-    for (const part of ["control", "phase"] as const) store.watch((state) => state[part], () => this.showDriver());
-    for (const part of ["robots", "robot"] as const) store.watch((state) => state[part], () => this.showRobot());
+    watch(["control", "phase"], () => this.showDriver());
+    watch(["robots", "robot"], () => this.showRobot());
   }
 
   private showState(): void {
@@ -65,7 +66,7 @@ export class Status {
     const isNext = this.isNext;
     const next = !control?.nextId ? "" : isNext ? say("control.youNext") : say("control.next", {name: control.nextName});
     setText(this.driver, next ? say("lobby.list", {first: driver, second: next}) : driver);
-    // Without a link nobody hears it. While another client waits there is nothing to ask for, and its request has its own button.
+    // Without a link no gateway receives it. While another client waits there is nothing to ask for, and its request has its own button.
     this.ask.hidden = phase !== "connected" || who === "free" || (control?.isMuted ?? false) || (next !== "" && !isNext);
     setText(this.ask, say(who === "mine" ? "control.release" : isNext ? "control.withdraw" : "control.ask"));
   }
