@@ -28,28 +28,30 @@ async function stops() {
   await until("the robot stands", async () => (await phone.look("mode")) === "holding");
 }
 
+/** Holds a key while it acts, and releases it also after a failure: the next test begins without a held key. */
+async function holding(key, act) {
+  await phone.page.keyboard.down(key);
+  await act().finally(() => phone.page.keyboard.up(key));
+}
+
 test("keys walk while they are held, and stop when they are released", async () => {
-  await phone.page.keyboard.down("KeyW");
-  await walks("W walks ahead", (vx) => vx > 0.01);
-  await phone.page.keyboard.up("KeyW");
+  await holding("KeyW", () => walks("W walks ahead", (vx) => vx > 0.01));
   await stops();
-  await phone.page.keyboard.down("ArrowLeft");
-  await walks("the left arrow turns left", (vx, vy, wz) => wz > 0.05);
-  await phone.page.keyboard.up("ArrowLeft");
+  await holding("ArrowLeft", () => walks("the left arrow turns left", (vx, vy, wz) => wz > 0.05));
   await stops();
 });
 
 test("the space bar stops while a key is held, and losing the focus releases it", async () => {
-  await phone.page.keyboard.down("KeyW");
-  await walks("W walks ahead", (vx) => vx > 0.01);
-  await phone.page.keyboard.press("Space");
-  await stops();
-  await phone.page.keyboard.up("KeyW");
-  await phone.page.keyboard.down("KeyW");
-  await walks("W walks ahead again", (vx) => vx > 0.01);
-  await phone.page.evaluate(() => window.dispatchEvent(new Event("blur")));
-  await stops();
-  await phone.page.keyboard.up("KeyW");
+  await holding("KeyW", async () => {
+    await walks("W walks ahead", (vx) => vx > 0.01);
+    await phone.page.keyboard.press("Space");
+    await stops();
+  });
+  await holding("KeyW", async () => {
+    await walks("W walks ahead again", (vx) => vx > 0.01);
+    await phone.page.evaluate(() => window.dispatchEvent(new Event("blur")));
+    await stops();
+  });
 });
 
 /** Connects a simulated gamepad; null disconnects it. */
