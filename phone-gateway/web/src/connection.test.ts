@@ -300,6 +300,26 @@ describe("Connection", () => {
     expect(ages).toEqual([false, true]);
   });
 
+  it("stays, and finds a lost link, where the page hangs before each check", async () => {
+    await welcome();
+    // One frame in 0.5 s.
+    const hang = async () => {
+      vi.setSystemTime(Date.now() + 400);
+      await pass(100);
+    };
+    for (let i = 0; i < 40; i++) {
+      transport.receive({case: "state", value: create(StateSchema, {mode: Mode.WALKING})});
+      await hang();
+    }
+    // The gateway hears of it each second.
+    expect(transport.sent.filter((one) => one.useCase.case === "ping").length).toBeGreaterThan(15);
+    expect(isStale(store.get())).toBe(false);
+    for (let i = 0; i < 3; i++) await hang();
+    expect(isStale(store.get())).toBe(true);
+    for (let i = 0; i < 9; i++) await hang();
+    expect(store.get()).toMatchObject({phase: "waiting", problem: "silent"});
+  });
+
   it("forgets the robot when a person connects anew, not when it reconnects by itself", async () => {
     await welcome();
     transport.broken(true);

@@ -68,6 +68,7 @@ export class Connection {
   private readonly second: SecondConnection | null;
   private lastPingMs = 0;
   private lastCheckMs = 0;
+  private wasLate = false;
   private retryTimer: ReturnType<typeof setTimeout> | undefined;
   private openTimer: ReturnType<typeof setTimeout> | undefined;
   private checkTimer: ReturnType<typeof setInterval> | undefined;
@@ -192,12 +193,13 @@ export class Connection {
 
   private check(): void {
     const now = this.now();
-    // A page that hung has not read yet what came meanwhile.
-    const wasLate = now - this.lastCheckMs > 3 * kCheckPeriodMs;
+    const isLate = now - this.lastCheckMs > 3 * kCheckPeriodMs;
+    // A page that hung has not read yet what came meanwhile; one that always hangs has read it before its next check.
+    const hasRead = !isLate || this.wasLate;
+    this.wasLate = isLate;
     this.lastCheckMs = now;
-    if (wasLate) return;
-    this.measureAge();
-    if (now - this.lastReceivedMs > kSilenceMs) {
+    if (hasRead) this.measureAge();
+    if (hasRead && now - this.lastReceivedMs > kSilenceMs) {
       this.failed("silent");
     } else if (now - this.lastPingMs >= kPingPeriodMs) {
       this.ping();
