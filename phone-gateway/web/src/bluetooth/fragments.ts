@@ -1,4 +1,5 @@
 /** Messages over Bluetooth, cut into fragments: phone-gateway/bluetooth/fragments.h says how. */
+import {joinBytes} from "../join_bytes";
 
 const kLast = 0x80;
 const kNumNumbers = 128;
@@ -45,16 +46,6 @@ export class FragmentReader {
       this.numNew = 0;
       this.acknowledgement = new Uint8Array([this.number]);
     }
-    return isLast ? join(this.parts.splice(0)) : null;
+    return isLast ? joinBytes(this.parts.splice(0)) : null;
   }
-}
-
-function join(parts: Uint8Array[]): Uint8Array {
-  const message = new Uint8Array(parts.reduce((sum, part) => sum + part.length, 0));
-  let begin = 0;
-  for (const part of parts) {
-    message.set(part, begin);
-    begin += part.length;
-  }
-  return message;
 }

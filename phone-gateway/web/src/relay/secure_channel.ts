@@ -1,5 +1,6 @@
 /** End-to-end encryption between this phone and the gateway over nao-relay. The format, with its sources, is described in
  * phone-gateway/secure_channel/secure_channel.h. */
+import {joinBytes} from "../join_bytes";
 
 const kVersion = 1;
 const kKeyLabel = new TextEncoder().encode("nao-remote relay 1");
@@ -27,16 +28,6 @@ export function fromHex(hex: string): Bytes {
   return new Uint8Array((hex.match(/../g) ?? []).map((byte) => parseInt(byte, 16)));
 }
 
-function join(...parts: Uint8Array[]): Bytes {
-  const all = new Uint8Array(parts.reduce((sum, part) => sum + part.length, 0));
-  let at = 0;
-  for (const part of parts) {
-    all.set(part, at);
-    at += part.length;
-  }
-  return all;
-}
-
 /** The frames of one connection. Both functions are to be called in the order of the frames. */
 export class SecureChannel {
   private numSealed = 0;
@@ -50,7 +41,7 @@ export class SecureChannel {
     view.setBigUint64(0, BigInt(this.numSealed++));
     view.setBigUint64(8, BigInt(this.numOpened));
     return crypto.subtle.encrypt(parameters(header), this.sealing, text as Bytes)
-        .then((sealed) => join(header, new Uint8Array(sealed)));
+        .then((sealed) => joinBytes([header, new Uint8Array(sealed)]));
   }
 
   /** @throws Error  The frame was changed, replayed, or one before it is missing. */
@@ -66,7 +57,7 @@ export class SecureChannel {
 }
 
 function parameters(header: Bytes): AesGcmParams {
-  return {name: "AES-GCM", iv: join(new Uint8Array(4), header.slice(0, 8)), additionalData: header};
+  return {name: "AES-GCM", iv: joinBytes([new Uint8Array(4), header.slice(0, 8)]), additionalData: header};
 }
 
 /** The phone's part of the handshake. */
@@ -77,7 +68,7 @@ export class Handshake {
   static async begin(invitation: Invitation, keys?: CryptoKeyPair): Promise<Handshake> {
     keys ??= await crypto.subtle.generateKey(kCurve, false, ["deriveBits"]);
     const publicKey = new Uint8Array(await crypto.subtle.exportKey("raw", keys.publicKey));
-    return new Handshake(keys.privateKey, invitation.secret, join(new Uint8Array([kVersion]), invitation.id, publicKey));
+    return new Handshake(keys.privateKey, invitation.secret, joinBytes([new Uint8Array([kVersion]), invitation.id, publicKey]));
   }
 
   /** @throws Error  The answer is not of a gateway that knows the invitation's secret. */
@@ -88,7 +79,7 @@ export class Handshake {
     const shared = await crypto.subtle.deriveBits({name: "ECDH", public: other}, this.key, 256);
     const material = await crypto.subtle.importKey("raw", shared, "HKDF", false, ["deriveBits"]);
     const keys = await crypto.subtle.deriveBits(
-        {name: "HKDF", hash: "SHA-256", salt: this.secret, info: join(kKeyLabel, this.hello, publicKey)}, material, 512);
+        {name: "HKDF", hash: "SHA-256", salt: this.secret, info: joinBytes([kKeyLabel, this.hello, publicKey])}, material, 512);
     const half = (at: number, use: KeyUsage) => crypto.subtle.importKey("raw", keys.slice(at, at + 32), "AES-GCM", false, [use]);
     const channel = new SecureChannel(await half(0, "encrypt"), await half(32, "decrypt"));
     await channel.open(answer.slice(1 + kPublicKeyBytes));
