@@ -1,6 +1,9 @@
+import {Vector3} from "three";
 import {describe, expect, it, vi} from "vitest";
 import {driveFromTilt, tiltFromAngles} from "./tilt";
 import {pageAngle, TiltSensor} from "./tilt_sensor";
+
+const kDegree = Math.PI / 180;
 
 describe("tilt", () => {
   // Held at 40 degrees, as one holds a phone to look at it.
@@ -34,14 +37,12 @@ describe("tilt", () => {
   });
   it.each([["ahead", 1], ["back", -1]])("keeps its sign and is not released from 80 to 110 degrees %s", (_, sign) => {
     // Held flat, then turned about the page's right by the angle: gravity in the page's axes.
-    const pitched = (degrees: number) => ({right: 0, up: sign * Math.sin(degrees * Math.PI / 180),
-                                           out: -Math.cos(degrees * Math.PI / 180)});
+    const pitched = (degrees: number) => new Vector3(0, sign * Math.sin(degrees * kDegree), -Math.cos(degrees * kDegree));
     for (let angle = 80; angle <= 110; ++angle) expect(driveFromTilt(pitched(angle), pitched(0)).x).toBe(sign);
     expect(Math.sign(driveFromTilt(pitched(110), pitched(80)).x)).toBe(sign);
   });
   it.each([["right", 1], ["left", -1]])("turns on to the %s beyond the vertical", (_, sign) => {
-    const rolled = (degrees: number) => ({right: sign * Math.sin(degrees * Math.PI / 180), up: 0,
-                                          out: -Math.cos(degrees * Math.PI / 180)});
+    const rolled = (degrees: number) => new Vector3(sign * Math.sin(degrees * kDegree), 0, -Math.cos(degrees * kDegree));
     for (let angle = 80; angle <= 110; ++angle) expect(driveFromTilt(rolled(angle), rolled(0)).theta).toBe(-sign);
     // The page's right edge is 20 degrees from pointing down: 30 more go on into the same direction.
     expect(Math.sign(driveFromTilt(rolled(100), rolled(70)).theta)).toBe(-sign);

@@ -1,6 +1,6 @@
 /** The phone's tilt, where the page may have it (secure pages only). */
+import type {Vector3} from "three";
 import {tiltFromAngles} from "./tilt";
-import type {Tilt} from "./tilt";
 
 type WithPermission = typeof DeviceOrientationEvent & {requestPermission?: () => Promise<string>};
 
@@ -9,9 +9,9 @@ const kFirstTiltMs = 1000;
 
 export class TiltSensor {
   /** Newest tilt; null before the first and while off. */
-  tilt: Tilt | null = null;
+  tilt: Vector3 | null = null;
   /** Called at each change. */
-  onChange: (tilt: Tilt) => void = () => {};
+  onChange: (tilt: Vector3) => void = () => {};
   /** Called when the page turns against the phone: what was held lies in other axes then. */
   onTurn: () => void = () => {};
   private angle = NaN;

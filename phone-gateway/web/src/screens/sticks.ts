@@ -1,8 +1,8 @@
 /** The two sticks of drive mode: walk and turn, or walk by tilting the phone. */
+import type {Vector3} from "three";
 import {Joystick} from "../controls/joystick";
 import {driveFromSticks} from "../controls/stick";
 import {driveFromTilt} from "../controls/tilt";
-import type {Tilt} from "../controls/tilt";
 import type {TiltSensor} from "../controls/tilt_sensor";
 import type {WalkSender} from "../controls/walk_sender";
 import type {Store} from "../store";
@@ -15,7 +15,7 @@ export class Sticks {
   onUse: () => void = () => {};
   readonly walkStick: Joystick;
   readonly turnStick: Joystick;
-  private neutral: Tilt | null = null;
+  private neutral: Vector3 | null = null;
 
   constructor(store: Store, private readonly walk: WalkSender, private readonly tilt: TiltSensor) {
     this.walkStick = new Joystick(say("drive.walk"), "walk", false, () => this.changed(), ["W", "A", "S", "D"]);
