@@ -132,8 +132,7 @@ export class App implements Actions {
     this.teach = new Teach(this.store, this.commander, this.messages, this.view, storage(), () => this.stop());
     attachGestures(this.stage, (x, y) => this.tapped(x, y), (x, y) => this.teach.grab(x, y));
     this.jointDriver.isInFront = () => this.stage.orbit.isInFront;
-    this.walkHere = new WalkHere(this.stage, ({x, y, theta}) =>
-        void this.commander.command({case: "moveTo", value: {x, y, theta}}));
+    this.walkHere = new WalkHere(this.stage, (value) => void this.commander.command({case: "moveTo", value}));
     this.commander.onRefusal = () => vibrate(kRefusalPattern);
     this.held.yieldTo(this.commander, this.messages);
     this.held.releaseScreen = () => {

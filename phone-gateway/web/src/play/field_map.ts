@@ -3,8 +3,9 @@
 import {shape} from "../dom";
 import type {State, Vision} from "../protocol/generated/remote_pb";
 import type {FieldLines} from "../robot/floor";
+import {headingOf} from "../robot/frames";
 import {say} from "../text/texts";
-import {ballOf, ellipseOf, headingOf} from "./seen";
+import {ballOf, ellipseOf} from "./seen";
 
 /** Carpet around the field, and half the length of the arrow that stands for the robot, m. */
 const kBorder = 0.6;

@@ -1,6 +1,9 @@
 /** Where things are that the robot sees; pure. */
+import {Vector2} from "three";
+import type {Vector2Like} from "three";
 import {Vision_Detection_Kind} from "../protocol/generated/remote_pb";
 import type {State, Vision, Vision_Detection} from "../protocol/generated/remote_pb";
+import {headingOf} from "../robot/frames";
 
 /** Size of the ellipses that show an uncertainty, in standard deviations: they hold 86 % of all places. */
 const kSigmas = 2;
@@ -10,11 +13,6 @@ const kImageReach = 0.04;
 const kGroundReach = 0.25;
 /** A ball that was not seen for this long is not shown, s. */
 const kShownAge = 5;
-
-export interface Place {
-  x: number;
-  y: number;
-}
 
 /** @param covariance  xx, xy, yy, m^2; empty: unknown.
  * @return half axes a and b, m, and the direction of the first one, rad; null if it is unknown. */
@@ -31,18 +29,10 @@ export function ellipseOf(covariance: readonly number[]) {
   };
 }
 
-/** Heading of a torso's orientation (w, x, y, z), rad. */
-export function headingOf([w = 1, x = 0, y = 0, z = 0]: readonly number[]): number {
-  return Math.atan2(2 * (x * y + w * z), 1 - 2 * (y * y + z * z));
-}
-
 /** A place ahead and left of the torso, m, in the odometry frame. */
-export function toOdometry({x, y}: Place, state: State): Place {
-  const heading = headingOf(state.torsoOrientation);
+export function toOdometry({x, y}: Vector2Like, state: State): Vector2Like {
   const [torsoX = 0, torsoY = 0] = state.torsoPosition;
-  const c = Math.cos(heading);
-  const s = Math.sin(heading);
-  return {x: torsoX + c * x - s * y, y: torsoY + s * x + c * y};
+  return new Vector2(x, y).rotateAround(new Vector2(), headingOf(state.torsoOrientation)).add({x: torsoX, y: torsoY});
 }
 
 /** The tracked ball, if it was seen lately. */
@@ -60,7 +50,7 @@ export function isBallInImage(vision: Vision | null, x: number, y: number): bool
 }
 
 /** Whether the tracked ball lies at a spot, m in the odometry frame. */
-export function isBallAt(vision: Vision | null, spot: Place): boolean {
+export function isBallAt(vision: Vision | null, spot: Vector2Like): boolean {
   const ball = ballOf(vision);
   return ball !== null && Math.hypot(spot.x - ball.x, spot.y - ball.y) < kGroundReach;
 }

@@ -4,13 +4,12 @@ import {
   BufferAttribute, BufferGeometry, CapsuleGeometry, CylinderGeometry, DynamicDrawUsage, Group, LineBasicMaterial, LineSegments, Mesh,
   MeshBasicMaterial, MeshLambertMaterial, RingGeometry, SphereGeometry,
 } from "three";
-import type {Material, Object3D} from "three";
+import type {Material, Object3D, Vector2Like} from "three";
 import {mergeGeometries} from "three/examples/jsm/utils/BufferGeometryUtils.js";
 import {Vision_Detection_Kind} from "../protocol/generated/remote_pb";
 import type {State, Vision} from "../protocol/generated/remote_pb";
 import type {Stage} from "../robot/stage";
 import {ballOf, ellipseOf, placedOf, toOdometry} from "./seen";
-import type {Place} from "./seen";
 
 const kBallRadius = 0.05;
 const kMaxLines = 64;
@@ -32,7 +31,7 @@ class Mark {
     this.object.visible = false;
   }
 
-  show(place: Place, covariance: readonly number[], heading = 0): void {
+  show(place: Vector2Like, covariance: readonly number[], heading = 0): void {
     this.object.visible = true;
     this.object.position.set(place.x, place.y, 0);
     const ellipse = ellipseOf(covariance);
@@ -96,7 +95,7 @@ export class SeenObjects {
   }
 
   /** Where the ball is drawn, m in the odometry frame; null: not drawn. */
-  get ballPlace(): Place | null {
+  get ballPlace(): Vector2Like | null {
     const {object} = this.ball;
     return object.visible ? {x: object.position.x, y: object.position.y} : null;
   }

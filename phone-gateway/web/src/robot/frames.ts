@@ -23,3 +23,8 @@ export function makeRobotAxes(root: Object3D): void {
 export function robotToScene(x: number, y: number, z: number, out: Vector3): Vector3 {
   return out.set(x, z, -y);
 }
+
+/** Heading of a torso's orientation (w, x, y, z), rad: where its x axis points on the ground. */
+export function headingOf([w = 1, x = 0, y = 0, z = 0]: readonly number[]): number {
+  return Math.atan2(2 * (x * y + w * z), 1 - 2 * (y * y + z * z));
+}

@@ -8,7 +8,7 @@ import type {Object3D} from "three";
 import type {JointGroup} from "../protocol/generated/remote_pb";
 import {openDrawingContext} from "./drawing_context";
 import {Floor} from "./floor";
-import {makeRobotAxes, robotToScene} from "./frames";
+import {headingOf, makeRobotAxes, robotToScene} from "./frames";
 import {Orbit} from "./orbit";
 import type {View} from "./orbit";
 import {PixelBudget} from "./pixel_budget";
@@ -272,10 +272,10 @@ export class Stage {
     this.frameRobot();
   }
 
-  /** Heading of the robot shown, rad: where the torso's x axis points on the ground. */
+  /** Heading of the robot shown, rad. */
   get heading(): number {
     const q = this.robot?.torso.quaternion;
-    return q ? Math.atan2(2 * (q.x * q.y + q.w * q.z), 1 - 2 * (q.y * q.y + q.z * q.z)) : 0;
+    return q ? headingOf([q.w, q.x, q.y, q.z]) : 0;
   }
 
   /** The ray from the eye through a point of the canvas, px from the top left. */

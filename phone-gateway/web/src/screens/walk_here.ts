@@ -1,7 +1,7 @@
 /** Tap to walk: a tap marks a spot on the ground, a second one on "Walk here" sends the robot there. */
 import {walkTo} from "../controls/ground_target";
-import type {RelativePose} from "../controls/ground_target";
 import {Offer} from "../controls/offer";
+import type {UseCaseValue} from "../protocol/codec";
 import type {Stage} from "../robot/stage";
 import {say} from "../text/texts";
 
@@ -16,7 +16,7 @@ export class WalkHere {
       [{name: "walk", label: say("drive.walkHere"), act: () => this.chosen()}], () => this.forget());
   readonly element = this.offer.element;
 
-  constructor(private readonly stage: Stage, private readonly go: (pose: RelativePose) => void) {}
+  constructor(private readonly stage: Stage, private readonly go: (pose: UseCaseValue<"moveTo">) => void) {}
 
   /** A tap on the stage, px from its top left. */
   tapped(x: number, y: number): void {
