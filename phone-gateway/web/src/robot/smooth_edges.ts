@@ -1,7 +1,7 @@
 /** Smooth edges where a processor draws, and several samples for each pixel would cost as much as the robot: what the robot covers
  * is drawn once more, blended along edges of brightness. Source: T. Lottes, FXAA, NVIDIA white paper, 2009. */
 import {
-  Box3, FramebufferTexture, LinearFilter, Mesh, PlaneGeometry, ShaderMaterial, Vector2, Vector3, Vector4,
+  Box3, FramebufferTexture, LinearFilter, Mesh, PlaneGeometry, ShaderMaterial, Vector2, Vector4,
 } from "three";
 import type {Camera, Object3D, WebGLRenderer} from "three";
 
@@ -53,7 +53,11 @@ export class SmoothEdges {
 
   /** Smooths what was drawn last, where an object is seen. */
   draw(renderer: WebGLRenderer, object: Object3D, camera: Camera): void {
-    const [least, most] = seenBox(object, camera);
+    const toCanvas = camera.projectionMatrix.clone().multiply(camera.matrixWorldInverse);
+    const {min, max} = new Box3().setFromObject(object).applyMatrix4(toCanvas);
+    // Where the object is seen, from -1 to 1 of the canvas.
+    const least = new Vector2().copy(min).clampScalar(-1, 1);
+    const most = new Vector2().copy(max).clampScalar(-1, 1);
     if (most.x <= least.x || most.y <= least.y) return;
     const half = renderer.getDrawingBufferSize(new Vector2()).divideScalar(2);
     const size = most.clone().sub(least);
@@ -74,17 +78,4 @@ export class SmoothEdges {
     this.image.minFilter = this.image.magFilter = LinearFilter;
     this.material.uniforms["image"]!.value = this.image;
   }
-}
-
-/** Two corners of where an object is seen, from -1 to 1 of the canvas. */
-function seenBox(object: Object3D, camera: Camera): [Vector2, Vector2] {
-  const {min, max} = new Box3().setFromObject(object);
-  const least = new Vector2(1, 1);
-  const most = new Vector2(-1, -1);
-  for (let i = 0; i < 8; i++) {
-    const {x, y} = new Vector3(i & 1 ? min.x : max.x, i & 2 ? min.y : max.y, i & 4 ? min.z : max.z).project(camera);
-    least.min(new Vector2(x, y));
-    most.max(new Vector2(x, y));
-  }
-  return [least.clampScalar(-1, 1), most.clampScalar(-1, 1)];
 }
