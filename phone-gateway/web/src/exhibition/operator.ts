@@ -63,14 +63,14 @@ class OperatorPage {
     this.marks = [];
     this.body.replaceChildren(
       el("button", {class: "stop", onclick: () => void this.connection.request({case: "stop", value: {}})}, tell("stop")),
-      this.toggle(({isPaused}) => isPaused, (isPaused) => ({isPaused}), (isOn) => tell(isOn ? "resume" : "pause")),
+      this.toggle("isPaused", (isOn) => tell(isOn ? "resume" : "pause")),
       this.button("skip", {skips: true}),
       this.button("moreTime", {moreTime: kMoreTime}),
-      this.toggle(({isResting}) => isResting, (isResting) => ({isResting}), (isOn) => tell(isOn ? "wake" : "rest")),
-      this.toggle(({forbidsKicks}) => forbidsKicks, (forbidsKicks) => ({forbidsKicks}), (isOn) => this.permission("kicks", isOn)),
-      this.toggle(({forbidsFalls}) => forbidsFalls, (forbidsFalls) => ({forbidsFalls}), (isOn) => this.permission("falls", isOn)),
-      this.choice("speed", kSpeeds, ({speed}) => speed, (speed) => ({speed})),
-      this.choice("volume", kVolumes, ({volume}) => volume, (volume) => ({volume})),
+      this.toggle("isResting", (isOn) => tell(isOn ? "wake" : "rest")),
+      this.toggle("forbidsKicks", (isOn) => this.permission("kicks", isOn)),
+      this.toggle("forbidsFalls", (isOn) => this.permission("falls", isOn)),
+      this.choice("speed", kSpeeds),
+      this.choice("volume", kVolumes),
       el("fieldset", {}, el("legend", {}, tell("lights")),
          ...kColors.map((lightRgb) => el("button", {
            class: "button color", style: `--color: ${cssColor(lightRgb)}`,
@@ -85,28 +85,27 @@ class OperatorPage {
     return el("button", {class: "button", "data-act": key, onclick: () => void this.run(change)}, tell(key));
   }
 
-  private toggle(read: (exhibition: Exhibition) => boolean, write: (isOn: boolean) => Change,
+  private toggle(what: "isPaused" | "isResting" | "forbidsKicks" | "forbidsFalls",
                  words: (isOn: boolean) => string): HTMLButtonElement {
     let isOn = false;
-    const button = el("button", {class: "button", onclick: () => void this.run(write(!isOn))}, words(false));
+    const button = el("button", {class: "button", onclick: () => void this.run({[what]: !isOn})}, words(false));
     this.marks.push((exhibition) => {
-      isOn = read(exhibition);
+      isOn = exhibition[what];
       button.setAttribute("aria-pressed", String(isOn));
       setText(button, words(isOn));
     });
     return button;
   }
 
-  private choice(key: ExhibitionKey, values: readonly number[], read: (exhibition: Exhibition) => number,
-                 write: (value: number) => Change): HTMLElement {
+  private choice(what: "speed" | "volume", values: readonly number[]): HTMLElement {
     const buttons = values.map((value) =>
-        el("button", {class: "button", onclick: () => void this.run(write(value))}, `${Math.round(value * 100)} %`));
+        el("button", {class: "button", onclick: () => void this.run({[what]: value})}, `${Math.round(value * 100)} %`));
     this.marks.push((exhibition) => {
       for (const [i, button] of buttons.entries()) {
-        button.setAttribute("aria-pressed", String(Math.abs(values[i]! - read(exhibition)) < 0.01));
+        button.setAttribute("aria-pressed", String(Math.abs(values[i]! - exhibition[what]) < 0.01));
       }
     });
-    return el("fieldset", {"data-choice": key}, el("legend", {}, tell(key)), ...buttons);
+    return el("fieldset", {"data-choice": what}, el("legend", {}, tell(what)), ...buttons);
   }
 
   private show(exhibition: Exhibition | null): void {
