@@ -385,7 +385,7 @@ export class App implements Actions {
   /** Turns what carries the camera. */
   private turnCamera(yaw: number, pitch: number): void {
     const group = this.store.get().robot?.cameraGroup;
-    if (group) this.commander.stream({case: "changeJoints", value: {group, yaw, pitch, roll: 0}});
+    if (group) this.commander.stream({case: "changeJoints", value: {group, yaw, pitch}});
   }
 
   changeRobot(): void {

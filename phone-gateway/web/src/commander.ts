@@ -1,4 +1,5 @@
 /** Commands to the robot: takes control first if no client has it, and shows the results. */
+import type {Connection} from "./connection";
 import type {Messages} from "./messages";
 import type {UseCase} from "./protocol/codec";
 import {ErrorCode, Notice_Component, Notice_Kind, Notice_Status} from "./protocol/generated/remote_pb";
@@ -6,12 +7,6 @@ import type {Notice, Response} from "./protocol/generated/remote_pb";
 import {nameOf} from "./protocol/names";
 import type {Store} from "./store";
 import {reasonInWords, say} from "./text/texts";
-
-/** The part of Connection that commands need. */
-export interface Requester {
-  request(useCase: UseCase): Promise<Response | null>;
-  isCongested(): boolean;
-}
 
 /** Motions that end a walk; joints turn beside it. */
 const kEndsWalk: readonly UseCase["case"][] = ["goToPosture", "doAction", "moveTo", "play"];
@@ -23,7 +18,7 @@ export class Commander {
   onMotion: () => void = () => {};
   private taking: Promise<boolean> | null = null;
 
-  constructor(private readonly requester: Requester, private readonly store: Store,
+  constructor(private readonly requester: Pick<Connection, "request" | "isCongested">, private readonly store: Store,
               private readonly messages: Messages) {}
 
   /** Sends one command. @return true if the gateway passed it on. */

@@ -50,7 +50,7 @@ describe("JointDriver", () => {
     vi.advanceTimersByTime(10 * kJointPeriodMs - 1);
     driver.setStick(null);
     vi.advanceTimersByTime(1000);
-    const turned = sent.reduce((sum, {pitch}) => sum + pitch, 0);
+    const turned = sent.reduce((sum, {pitch}) => sum + pitch!, 0);
     expect(turned).toBeCloseTo(-kJointRate * 10 * kJointPeriodMs / 1000, 6);
   });
 

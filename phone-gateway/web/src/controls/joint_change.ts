@@ -1,16 +1,10 @@
 /** From a joystick position to a change of a joint group; pure. */
+import type {UseCaseValue} from "../protocol/codec";
 import type {JointGroup} from "../protocol/generated/remote_pb";
 import type {StickValue} from "./stick";
 
-/** Changes about a group's axes, rad (hands: opening, in `pitch`). */
-export interface JointChange {
-  group: string;
-  yaw: number;
-  pitch: number;
-  roll: number;
-  /** True: the group of the other side makes the mirrored change. */
-  bothSides?: boolean;
-}
+/** Changes about a group's axes, as ChangeJoints takes them. */
+export type JointChange = UseCaseValue<"changeJoints">;
 
 /** Speed at the rim of the pad, rad/s: half a turn of the head in two seconds. */
 export const kJointRate = 0.9;
@@ -33,5 +27,5 @@ export function changeFromStick(group: JointGroup, stick: StickValue, isInFront:
 
 /** True if it asks for nothing. */
 export function isNoChange({yaw, pitch, roll}: JointChange): boolean {
-  return yaw === 0 && pitch === 0 && roll === 0;
+  return !yaw && !pitch && !roll;
 }

@@ -1,5 +1,6 @@
 /** Turns the selected joint group while the joystick or the slider is held. */
 import type {JointGroup} from "../protocol/generated/remote_pb";
+import type {Axis} from "../robot/joint_axes";
 import {changeFromStick, isNoChange} from "./joint_change";
 import type {JointChange} from "./joint_change";
 import {Repeater} from "./repeater";
@@ -37,8 +38,8 @@ export class JointDriver {
   }
 
   /** Turns about one axis by `change` rad at once. */
-  turn(axis: "yaw" | "pitch" | "roll", change: number): void {
-    if (this.group) this.sendChange({group: this.group.name, yaw: 0, pitch: 0, roll: 0, [axis]: change});
+  turn(axis: Axis, change: number): void {
+    if (this.group) this.sendChange({group: this.group.name, [axis]: change});
   }
 
   private step(): void {

@@ -2,7 +2,7 @@
  * the robot is localised. Drawn in meters of the field, the opponent's goal on the right. */
 import {shape} from "../dom";
 import type {State, Vision} from "../protocol/generated/remote_pb";
-import type {FieldLines} from "../robot/floor";
+import type {FieldLines} from "../robot/load_field";
 import {headingOf} from "../robot/frames";
 import {say} from "../text/texts";
 import {ballOf, ellipseOf} from "./seen";

@@ -4,16 +4,7 @@ import {
   CircleGeometry, Color, Group, LinearSRGBColorSpace, Mesh, MeshBasicMaterial, PlaneGeometry, RingGeometry, ShaderMaterial,
   ShadowMaterial, Vector2, Vector4,
 } from "three";
-
-/** The lines of a field, m; see data/scenes/soccer.yaml for the meaning. */
-export interface FieldLines {
-  length: number;
-  width: number;
-  lineWidth: number;
-  centreCircleDiameter: number;
-  penaltyAreaLength: number;
-  penaltyAreaWidth: number;
-}
+import type {FieldLines} from "./load_field";
 
 /** Beyond this distance from the robot the ground has faded out, m. */
 const kVisibleRadius = 4.5;

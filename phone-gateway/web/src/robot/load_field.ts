@@ -1,8 +1,9 @@
 /** The lines of the field, from the scene file that simulator and camera read too. */
-import type {FieldLines} from "./floor";
 
-const kKeys: readonly (keyof FieldLines)[] =
-    ["length", "width", "lineWidth", "centreCircleDiameter", "penaltyAreaLength", "penaltyAreaWidth"];
+const kKeys = ["length", "width", "lineWidth", "centreCircleDiameter", "penaltyAreaLength", "penaltyAreaWidth"] as const;
+
+/** The lines of a field, m; see data/scenes/soccer.yaml for the meaning. */
+export type FieldLines = Readonly<Record<typeof kKeys[number], number>>;
 
 /** Lines in a scene file: "key: number" below "field:". Null if it has no field, or not all of it.
  * A whole YAML parser would cost more than the lines are worth. */

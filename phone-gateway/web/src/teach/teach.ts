@@ -42,9 +42,9 @@ export class Teach {
   }
 
   /** A joint change is about to be sent: its joints belong to the motion. */
-  turned({group, bothSides}: JointChange): void {
+  turned({group = "", bothSides = false}: JointChange): void {
     const {robot} = this.store.get();
-    if (robot) this.noteJoints(jointsOfChange(robot.jointGroups, robot.joints, group, bothSides ?? false));
+    if (robot) this.noteJoints(jointsOfChange(robot.jointGroups, robot.joints, group, bothSides));
   }
 
   /** Makes the limb of a joint group limp, or stiff again. */

@@ -1,7 +1,11 @@
 /** All that the app says, in the language of the page: en.json and its like, of which a phone fetches one. Placeholders are
  * written {name}. `texts` has all keys; `reasons`, by code and with {0}, {1} for arguments, has the sentences of nao-motion
  * (lcmtypes/README.md) and of the gateway (PROTOCOL.md), which come in English with the message. */
+import type {Response} from "../protocol/generated/remote_pb";
 import en from "./en.json";
+
+/** In English, and as a code. */
+type Reason = Pick<Response, "message" | "reasonCode" | "reasonArguments">;
 
 export type TextKey = keyof typeof en.texts;
 
@@ -63,15 +67,8 @@ export function isText(key: string): key is TextKey {
   return key in en.texts;
 }
 
-/** The reason fields that Response and Notice share. */
-export interface Reason {
-  /** English sentence. */
-  message: string;
-  reasonCode: string;
-  reasonArguments: readonly string[];
-}
-
-/** @return the translated sentence; the English one in English and for a code without translation. */
+/** The reason that a response or a notice gives.
+ * @return the translated sentence; the English one in English and for a code without translation. */
 export function reasonInWords({message, reasonCode, reasonArguments}: Reason): string {
   return fillIn(said.reasons[reasonCode] ?? message, Object.fromEntries(reasonArguments.entries()));
 }
