@@ -14,7 +14,7 @@ import {el} from "./dom";
 import {reloadButton} from "./screens/reload_button";
 import {listenToLeaving} from "./leaving";
 import {Lobby} from "./lobby";
-import {MatchEvents} from "./match/match_events";
+import {reportMatch} from "./match/match_events";
 import {Messages} from "./messages";
 import {registerOfflineShell} from "./offline";
 import {Mode, Notice_Component} from "./protocol/generated/remote_pb";
@@ -162,7 +162,7 @@ export class App implements Actions {
 
   start(): void {
     window.naoRemote = automationOf(this.store, this.stage, this.image, this.view, this.perception.objects);
-    new MatchEvents(this.store, this.messages, this.sound);
+    reportMatch(this.store, this.messages, this.sound);
     this.store.watch((state) => state.imageAgeMs, (ageMs) => this.image.showAge(ageMs));
     this.store.watch(isStale, (isOn) => this.root.classList.toggle("stale", isOn));
     this.held.lockWhileStale(() => {

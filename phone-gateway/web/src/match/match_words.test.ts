@@ -3,7 +3,7 @@ import {describe, expect, it} from "vitest";
 import {Match_Event, Match_Phase, MatchSchema} from "../protocol/generated/remote_pb";
 import {Messages} from "../messages";
 import {Store} from "../store";
-import {MatchEvents} from "./match_events";
+import {reportMatch} from "./match_events";
 import {tonesOf} from "./match_sound";
 import {clockInWords} from "../text/clock";
 import {eventInWords, penaltyOf, phaseInWords} from "./match_words";
@@ -43,7 +43,7 @@ describe("a match in words", () => {
 describe("events of a match", () => {
   const store = new Store();
   const told = (): string[] => store.get().messages.map(({text}) => text);
-  new MatchEvents(store, new Messages(store), {running: null});
+  reportMatch(store, new Messages(store), {running: null});
   const set = (eventId: bigint, score0: number) =>
       store.set({match: create(MatchSchema, {half: 1, eventId, event: Match_Event.GOAL, eventTeam: 0, score0})});
 
