@@ -400,7 +400,7 @@ export class App implements Actions {
 
   openSpeech(): void {
     this.held.release();
-    this.speech.sheet.open();
+    this.speech.sheet.element.showModal();
   }
 
   async setTilt(isOn: boolean): Promise<boolean> {

@@ -29,10 +29,8 @@ export class HeldControls {
 
   /** @param isActive  whether keys count at the moment. */
   listen(isActive: () => boolean): void {
-    this.releaseKeys = listenToKeys(isActive, {
-      heldChanged: (held, isSlow) => this.keysChanged(held, isSlow),
-      pressed: (button) => this.listener.pressed(button),
-    });
+    this.releaseKeys = listenToKeys(isActive, (held, isSlow) => this.keysChanged(held, isSlow),
+                                    (button) => this.listener.pressed(button));
   }
 
   /** What is held counts no more: keys and the screen until they are pressed anew, gamepads until their sticks have been at

@@ -3,17 +3,13 @@ import {isDeflected, isDriveKey, kButtonKeys, pressedButtons, sticksFromPad} fro
 import type {PadButton, PadSticks} from "./keys";
 import {kSilenceMs} from "./walk_sender";
 
-export interface KeyActions {
-  /** Drive keys went down or up. */
-  heldChanged(held: ReadonlySet<string>, isSlow: boolean): void;
-  pressed(button: PadButton): void;
-}
-
 /** Listens on the page; keys meant for a form or a dialog are left to it.
+ * @param heldChanged  called when drive keys went down or up. @param pressed  called when another key that counts went down.
  * @return a function that releases all keys: each must be pressed anew. */
-export function listenToKeys(isActive: () => boolean, actions: KeyActions): () => void {
+export function listenToKeys(isActive: () => boolean, heldChanged: (held: ReadonlySet<string>, isSlow: boolean) => void,
+                             pressed: (button: PadButton) => void): () => void {
   const held = new Set<string>();
-  const notify = (event: KeyboardEvent) => actions.heldChanged(held, event.shiftKey);
+  const notify = (event: KeyboardEvent) => heldChanged(held, event.shiftKey);
   document.addEventListener("keydown", (event) => {
     if (!isActive() || event.ctrlKey || event.metaKey || event.altKey || isForAnother(event)) return;
     if (isDriveKey(event.code)) {
@@ -25,7 +21,7 @@ export function listenToKeys(isActive: () => boolean, actions: KeyActions): () =
     }
     const button = kButtonKeys[event.code];
     if (button === "stop") event.preventDefault();
-    if (button && (button === "stop" || !event.repeat)) actions.pressed(button);
+    if (button && (button === "stop" || !event.repeat)) pressed(button);
   });
   document.addEventListener("keyup", (event) => {
     if (held.delete(event.code) || event.key === "Shift") notify(event);

@@ -4,7 +4,7 @@ import {
   BufferAttribute, BufferGeometry, CapsuleGeometry, CylinderGeometry, DynamicDrawUsage, Group, LineBasicMaterial, LineSegments, Mesh,
   MeshBasicMaterial, MeshLambertMaterial, RingGeometry, SphereGeometry,
 } from "three";
-import type {Material, Object3D, Vector2Like} from "three";
+import type {Material, Vector2Like} from "three";
 import {mergeGeometries} from "three/examples/jsm/utils/BufferGeometryUtils.js";
 import {Vision_Detection_Kind} from "../protocol/generated/remote_pb";
 import type {State, Vision} from "../protocol/generated/remote_pb";
@@ -23,7 +23,7 @@ class Mark {
   readonly object = new Group();
   private readonly ring: Mesh;
 
-  constructor(thing: Object3D, color: number) {
+  constructor(readonly thing: Mesh, color: number) {
     this.ring = new Mesh(new RingGeometry(0.94, 1, 48),
                          new MeshBasicMaterial({color, transparent: true, opacity: 0.8, depthWrite: false}));
     this.ring.position.z = kRingHeight;
@@ -66,8 +66,6 @@ export class SeenObjects {
   private readonly group = new Group();
   private readonly ball: Mark;
   private readonly robots: Mark[] = [];
-  /** The robots' meshes. */
-  private readonly figures: Mesh[] = [];
   private readonly posts: Mark[] = [];
   private readonly red = new MeshLambertMaterial({color: 0xd8595c});
   /** Of a robot that would hide the one that is driven. */
@@ -81,8 +79,7 @@ export class SeenObjects {
     this.ball = new Mark(sphere, 0xffb84d);
     const white = new MeshLambertMaterial({color: 0xf4f7f9});
     for (let i = 0; i < kMaxThings; i++) {
-      this.figures.push(figure(this.red));
-      this.robots.push(new Mark(this.figures[i]!, 0xff6a6a));
+      this.robots.push(new Mark(figure(this.red), 0xff6a6a));
       this.posts.push(new Mark(column(0.05, 0.8, white), 0xf4f7f9));
     }
     const geometry = new BufferGeometry();
@@ -106,9 +103,9 @@ export class SeenObjects {
     if (ball) this.ball.show(ball, ball.covariance);
     this.showThings(this.robots, Vision_Detection_Kind.ROBOT, vision, state);
     // Robots that play with this one are as tall.
-    for (const mesh of this.figures) {
-      mesh.scale.setScalar(this.stage.robotHeight);
-      mesh.material = this.stage.isBeforeRobot(mesh) ? this.glass : this.red;
+    for (const {thing} of this.robots) {
+      thing.scale.setScalar(this.stage.robotHeight);
+      thing.material = this.stage.isBeforeRobot(thing) ? this.glass : this.red;
     }
     this.showThings(this.posts, Vision_Detection_Kind.GOAL_POST, vision, state);
     this.showLines(vision, state);

@@ -79,7 +79,8 @@ export class Floor {
   private readonly material = new ShaderMaterial({
     vertexShader: kVertexShader, fragmentShader: kFragmentShader, depthWrite: false, uniforms: this.uniforms});
   private readonly ground = new Group();
-  private readonly shadow = new Mesh(undefined, new ShadowMaterial({opacity: 0.45, depthWrite: false}));
+  /** The robot's, on it. */
+  readonly shadow = new Mesh(undefined, new ShadowMaterial({opacity: 0.45, depthWrite: false}));
   /** Ring around a spot that was tapped. */
   private readonly marker = new Mesh(
       new RingGeometry(0.06, 0.075, 40).rotateX(-Math.PI / 2),
@@ -116,11 +117,6 @@ export class Floor {
   setColors(turf: string, lines: string): void {
     this.uniforms.turf.value.setStyle(turf, LinearSRGBColorSpace);
     this.uniforms.lines.value.setStyle(lines, LinearSRGBColorSpace);
-  }
-
-  /** Whether the robot's shadow is drawn on it. */
-  setShadow(isOn: boolean): void {
-    this.shadow.visible = isOn;
   }
 
   /** Marks a spot and the way from another one to it, m in the robot's axes; null: none. */

@@ -19,17 +19,13 @@ export class PoseMirror {
   private readonly position = new Vector3();
   private readonly orientation = new Quaternion();
   private hasState = false;
-  private hasStepped = false;
+  /** True once the tree has taken a state's pose. */
+  hasPose = false;
 
   /** @param joints  the order of State.joint_position. */
   constructor(private readonly tree: RobotTree, private readonly joints: readonly {name: string}[]) {
     this.target = new Float64Array(joints.length);
     this.shown = new Float64Array(joints.length);
-  }
-
-  /** True once the tree has taken a state's pose. */
-  get hasPose(): boolean {
-    return this.hasStepped;
   }
 
   /** Takes a state; values that are missing or not finite leave what was there. */
@@ -50,8 +46,8 @@ export class PoseMirror {
   /** Moves the tree towards the newest state. @param dt  s since the last call.
    * @return true if the tree looks different now. */
   step(dt: number): boolean {
-    if (!this.hasState || (this.hasStepped && this.isThere())) return false;
-    this.hasStepped = true;
+    if (!this.hasState || (this.hasPose && this.isThere())) return false;
+    this.hasPose = true;
     if (this.tree.torso.position.distanceTo(this.position) > kJump) this.jump();
     const share = 1 - Math.exp(-dt / kFollowTime);
     for (let i = 0; i < this.target.length; i++) {

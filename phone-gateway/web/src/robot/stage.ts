@@ -243,8 +243,7 @@ export class Stage {
     // Where it is fetched in vain the edges are as they are.
     if (this.hasFewPixels) void import("./smooth_edges").then(({SmoothEdges}) => this.edges ??= new SmoothEdges(), () => {});
     const hasShadow = this.framePeriodMs === 0 && !this.budget.isLeast;
-    this.renderer.shadowMap.enabled = this.sun.castShadow = hasShadow;
-    this.floor.setShadow(hasShadow);
+    this.renderer.shadowMap.enabled = this.sun.castShadow = this.floor.shadow.visible = hasShadow;
     this.camera.aspect = this.width / this.height;
     // The canvas is empty now.
     this.drawnMs = -Infinity;

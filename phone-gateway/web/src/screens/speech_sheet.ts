@@ -58,10 +58,6 @@ export class SpeechSheet {
     });
   }
 
-  open(): void {
-    this.element.showModal();
-  }
-
   /** @param tags  BCP 47. */
   private showLanguages(tags: readonly string[]): void {
     const names = new Intl.DisplayNames([getLanguage()], {type: "language"});
