@@ -9,6 +9,7 @@ import type {JointGroup} from "../protocol/generated/remote_pb";
 import {jointOfAxis, kAxes, kAxisColors} from "./joint_axes";
 import type {Axis} from "./joint_axes";
 import type {RobotSurface} from "./robot_surface";
+import {quaternionFromRpy} from "./robot_tree";
 import type {RobotTree} from "./robot_tree";
 import type {Stage} from "./stage";
 
@@ -116,7 +117,7 @@ export class JointBalls {
     const {lower, upper} = joint;
     const object = new Group();
     object.position.copy(link.position);
-    object.quaternion.copy(this.tree.restOrientation(name))
+    object.quaternion.copy(quaternionFromRpy(joint.rpy))
         .multiply(arcFrame(new Vector3(...joint.axis), zeroDirection(link)));
     const material = {color: kAxisColors[axis], depthTest: false, transparent: true, side: 2} as const;
     const ring = new Mesh(

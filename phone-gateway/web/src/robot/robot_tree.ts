@@ -48,11 +48,6 @@ export class RobotTree {
     return this.joints.get(name)?.joint ?? null;
   }
 
-  /** Orientation of a joint's frame in its parent link at angle 0; none if there is no such joint. */
-  restOrientation(name: string): Quaternion {
-    return this.joints.get(name)?.rest ?? new Quaternion();
-  }
-
   /** Angle that is shown, rad; NaN if there is no such joint. */
   jointAngle(name: string): number {
     return this.joints.get(name)?.angle ?? NaN;
