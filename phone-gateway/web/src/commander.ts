@@ -70,10 +70,10 @@ export class Commander {
   /** Takes control, or tells the driver that this client waits for it. */
   async askForControl(): Promise<boolean> {
     const response = await this.requester.request({case: "takeControl", value: {wait: true}});
-    const isWaiting = response?.result.case === "control" && response.result.value.nextId === this.store.get().clientId;
-    if (!response || !isWaiting || response.result.case !== "control") return this.report(response);
-    this.store.set({control: response.result.value});
-    this.messages.show("info", say("control.asked", {name: response.result.value.driverName}));
+    const control = response?.result.case === "control" ? response.result.value : null;
+    if (control?.nextId !== this.store.get().clientId) return this.report(response);
+    this.store.set({control});
+    this.messages.show("info", say("control.asked", {name: control.driverName}));
     return false;
   }
 

@@ -24,8 +24,8 @@ export interface Grip {
 
 /** @param tapped  called with the place of a tap, px from the canvas's top left.
  * @param grab  what a finger that goes down there holds; null: it looks around. */
-export function attachGestures(stage: Stage, tapped: (x: number, y: number) => void = () => {},
-                               grab: (x: number, y: number) => Grip | null = () => null): void {
+export function attachGestures(stage: Stage, tapped: (x: number, y: number) => void,
+                               grab: (x: number, y: number) => Grip | null): void {
   const {canvas, orbit} = stage;
   const fingers = new Map<number, Finger>();
   const grips = new Map<number, Grip>();
