@@ -29,6 +29,7 @@ test("the first to touch a control drives; the second phone sees who, and may as
   await ben.tap('[data-name="Crouch"]');
   await ben.page.locator(".message", {hasText: "Ana drives"}).waitFor();
   // Ana is active: she is asked, and hands over by name. A third one sees who is next.
+  await ana.tap('[data-name="Stand"]');
   await ben.tap(".driver-button");
   await ben.page.locator(".message", {hasText: "Ana sees that you would like to drive."}).waitFor();
   const eva = await openPhone();
