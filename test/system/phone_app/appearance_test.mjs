@@ -160,16 +160,27 @@ for (const {name, size: [width, height], options, ...page} of kPasses.filter((pa
   });
 }
 
-/** In the page: how many edges there are in the frame that is drawn next, between pixels two apart, and how many of them are
- * smooth: the pixel between lies between both. */
-async function countEdges() {
+/** In the page: frames take long. */
+function beSlow() {
+  const end = performance.now() + 40;
+  while (performance.now() < end);
+  requestAnimationFrame(beSlow);
+}
+
+/** In the page: the pixels of the frame that is drawn next. */
+async function takeFrame() {
   const canvas = document.querySelector("canvas.stage");
   const {numFrames} = window.naoRemote;
   while (window.naoRemote.numFrames === numFrames) await new Promise(requestAnimationFrame);
   const {width, height} = canvas;
   const copy = Object.assign(document.createElement("canvas"), {width, height}).getContext("2d");
   copy.drawImage(canvas, 0, 0);
-  const {data} = copy.getImageData(0, 0, width, height);
+  return {width, ratio: width / canvas.clientWidth, data: copy.getImageData(0, 0, width, height).data};
+}
+
+/** In the page: how many edges there are in a frame, between pixels two apart, and how many of them are smooth: the pixel between
+ * lies between both. */
+function countEdges({data, ratio}) {
   let numEdges = 0;
   let numSmooth = 0;
   for (let i = 4; i < data.length - 4; i += 4) {
@@ -178,31 +189,46 @@ async function countEdges() {
     numEdges++;
     if (Math.abs(2 * at - before - after) < 0.6 * Math.abs(after - before)) numSmooth++;
   }
-  return {numEdges, numSmooth, ratio: width / canvas.clientWidth};
+  return {numEdges, numSmooth, ratio};
+}
+
+/** In the page: how many pixels of one column, at the most, differ from those on both sides, which are alike; left of the robot. */
+function countMarks({data, width}) {
+  const numMarks = new Uint32Array(width);
+  for (let i = 4; i < data.length - 4; i += 4) {
+    const [before, at, after] = [data[i - 4], data[i], data[i + 4]];
+    const column = i / 4 % width;
+    if (column < 0.35 * width && Math.abs(after - before) < 10 && Math.abs(2 * at - before - after) > 30) numMarks[column]++;
+  }
+  return Math.max(...numMarks);
 }
 
 test("where a processor draws large pixels their edges are smooth", async (t) => {
+  const alone = await startFake();
+  t.after(() => alone.end());
   const phone = await Phone.open(browser, "about:blank", {width: 1280, height: 800}, kDesk);
+  const ofFrame = (count) => phone.page.evaluate(`(${takeFrame})().then(${count})`);
   // The field's lines would be edges too.
   await phone.context.route("**/scene.yaml", (route) => route.fulfill({body: ""}));
-  await phone.page.goto(fake.url);
+  await phone.page.goto(alone.url);
   await phone.sees("controller");
-  // As a page that is slow to draw.
-  await phone.page.evaluate(() => {
-    const spend = () => {
-      const end = performance.now() + 40;
-      while (performance.now() < end);
-      requestAnimationFrame(spend);
-    };
-    spend();
-  });
+  await phone.page.evaluate(beSlow);
   await phone.page.keyboard.down("w");
   // What smooths them is fetched then.
   const found = await until("fewer pixels are drawn, and a sixth of the edges is smooth", async () => {
-    const found = await phone.page.evaluate(countEdges);
+    const found = await ofFrame(countEdges);
     return found.ratio < 0.6 && found.numEdges > 100 && found.numSmooth > found.numEdges / 6 && found;
   });
   t.diagnostic(`${found.numSmooth} of ${found.numEdges} edges are smooth`);
+  // What is smoothed ends within the field's lines: nothing is seen of its border.
+  await phone.page.keyboard.up("w");
+  await phone.context.unroute("**/scene.yaml");
+  await phone.page.reload();
+  await phone.sees("controller");
+  await phone.page.evaluate(beSlow);
+  await phone.page.keyboard.down("w");
+  await until("fewer pixels are drawn again", async () => (await ofFrame(countEdges)).ratio < 0.6);
+  for (let i = 0; i < 20; i++) assert.ok((await ofFrame(countMarks)) <= 5, "a border is seen");
   assert.deepEqual(phone.errors, []);
   await phone.close();
 });

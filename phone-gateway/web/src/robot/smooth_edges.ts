@@ -62,8 +62,9 @@ export class SmoothEdges {
     const half = renderer.getDrawingBufferSize(new Vector2()).divideScalar(2);
     const size = most.clone().sub(least);
     this.area.set((least.x + most.x) / 2, (least.y + most.y) / 2, size.x / 2, size.y / 2);
-    this.corner.copy(least).addScalar(1).multiply(half).floor();
-    this.fit(size.multiply(half));
+    // A pixel is compared with those beside it.
+    this.corner.copy(least).addScalar(1).multiply(half).floor().subScalar(1);
+    this.fit(size.multiply(half).addScalar(2));
     renderer.copyFramebufferToTexture(this.image, this.corner);
     renderer.autoClear = false;
     renderer.render(this.quad, camera);
