@@ -6,7 +6,7 @@ were chosen to resemble the robot; see generate_meshes.py for their sources."""
 
 import math
 
-from mesh import cross, dot, normalized, subtract
+from mesh import cross, normalized, subtract
 
 
 def skin(rings, materials, start=None, end=None):

@@ -14,6 +14,7 @@
 #include "kinematics/kinematics.h"
 #include "kinematics/leg_kinematics.h"
 #include "robot_import/level_stance.h"
+#include "robot_import/urdf_values.h"
 #include "robot_import/yaml_name.h"
 
 namespace nao {
@@ -308,17 +309,13 @@ std::string make_sole_links(const RobotModel& model, const RobotStructure& struc
   text.precision(12);
   const auto add_joint = [&](const std::string& name, const std::string& parent,
                              const std::string& child, const Eigen::Isometry3d& pose) {
-    const Eigen::Vector3d xyz = pose.translation();
-    // Roll, pitch and yaw of R = Rz(yaw) Ry(pitch) Rx(roll), URDF's order.
-    const Eigen::Matrix3d& r = pose.linear();
     std::string in_xml[2];
     TiXmlBase::EncodeString(parent, &in_xml[0]);
     TiXmlBase::EncodeString(child, &in_xml[1]);
     text << "<joint name=\"" << name << "\" type=\"fixed\">\n  <parent link=\"" << in_xml[0]
-         << "\"/>\n  <child link=\"" << in_xml[1] << "\"/>\n  <origin xyz=\"" << xyz.x() << " "
-         << xyz.y() << " " << xyz.z() << "\" rpy=\"" << std::atan2(r(2, 1), r(2, 2)) << " "
-         << std::atan2(-r(2, 0), std::hypot(r(2, 1), r(2, 2))) << " "
-         << std::atan2(r(1, 0), r(0, 0)) << "\"/>\n</joint>\n";
+         << "\"/>\n  <child link=\"" << in_xml[1] << "\"/>\n  <origin xyz=\""
+         << to_text(Eigen::Vector3d(pose.translation())) << "\" rpy=\""
+         << to_text(to_rpy(pose.linear())) << "\"/>\n</joint>\n";
   };
   if (!structure.frame.matrix().isIdentity(0)) {
     const std::string root = make_free_name(model, "robot_frame");

@@ -118,10 +118,7 @@ class Numbers {
     if (inertia == nullptr) return;
     const double assumed =
         link.mass * std::pow(kAssumedGyration * std::max(extent, kLeastExtentOfLeg * leg_), 2);
-    for (const char* key : {"ixx", "iyy", "izz"}) {
-      inertia->SetAttribute(key, to_text(assumed).c_str());
-    }
-    for (const char* key : {"ixy", "ixz", "iyz"}) inertia->SetAttribute(key, "0");
+    set_moment(*inertia, assumed);
     log_.note(Finding::Severity::kRepaired, *inertia, "link " + link.name,
               "has an inertia with a radius of gyration of " + rounded(gyration) +
                   " m, larger than the link",

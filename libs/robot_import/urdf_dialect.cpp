@@ -119,13 +119,12 @@ class DialectRepair {
         }
         element.RemoveChild(child);
       } else {
-        const char* of = child->Attribute("name");
         const bool is_owner = kind == "robot";
         if (is_owner && ++num_owners_ > 2 * kMaxLinks) {
           log_.fail(child, "has more than " + std::to_string(kMaxLinks) + " links",
                     "leave out those that do not matter");
         }
-        clean(*child, is_owner ? name + " " + (of == nullptr ? "" : of) : owner);
+        clean(*child, is_owner ? title_of(*child) : owner);
       }
     }
     repair_numbers(element, owner);
@@ -175,18 +174,17 @@ class DialectRepair {
     std::set<std::string> joints;
     for (TiXmlElement* element : child_elements(robot)) {
       const std::string kind = element->Value();
-      const std::string name =
-          element->Attribute("name") == nullptr ? "" : element->Attribute("name");
+      const std::string name = text_of(*element, "name");
       if (kind == "joint" && !name.empty() && !joints.insert(name).second) {
         std::string other = name;
         while (!joints.insert(other).second) other += "_2";
-        log_.note(Severity::kRepaired, *element, "joint " + name, "is a second one of this name",
+        log_.note(Severity::kRepaired, *element, title_of(*element), "is a second one of this name",
                   "it is called " + other);
         element->SetAttribute("name", other.c_str());
       } else if (kind == "link" && !name.empty() && !links.emplace(name, element).second) {
         // The one with more in it stays.
         if (links[name]->FirstChildElement() == nullptr) std::swap(links[name], element);
-        log_.note(Severity::kRepaired, *element, "link " + name, "is a second one of this name",
+        log_.note(Severity::kRepaired, *element, title_of(*element), "is a second one of this name",
                   "it is left out");
         robot.RemoveChild(element);
       }
@@ -197,8 +195,7 @@ class DialectRepair {
         const TiXmlElement* element = joint->FirstChildElement(end);
         const char* link = element == nullptr ? nullptr : element->Attribute("link");
         if (link == nullptr || links.count(link) > 0) continue;
-        const char* name = joint->Attribute("name");
-        log_.note(Severity::kMissing, *joint, std::string("joint ") + (name == nullptr ? "" : name),
+        log_.note(Severity::kMissing, *joint, title_of(*joint),
                   std::string("its ") + end + " \"" + link + "\" is not a link",
                   "the joint is left out, and what it would carry: write the link");
         robot.RemoveChild(joint);
@@ -234,8 +231,7 @@ class DialectRepair {
     round.SetAttribute("radius", form->Attribute("radius"));
     if (length > 0) {
       round.SetAttribute("length", form->Attribute("length"));
-      const char* name = shape.Attribute("name");
-      shape.SetAttribute("name", ((name == nullptr ? "" : name) + std::string("_capsule")).c_str());
+      shape.SetAttribute("name", (text_of(shape, "name") + "_capsule").c_str());
     }
     geometry->RemoveChild(form);
     geometry->InsertEndChild(round);

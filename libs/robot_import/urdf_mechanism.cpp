@@ -47,17 +47,7 @@ class MechanismRepair {
   static bool is_fixed(const TiXmlElement& joint) {
     return std::string(joint.Attribute("type")) == "fixed";
   }
-  static std::string link_of(const TiXmlElement& joint, const char* end) {
-    const TiXmlElement* element = joint.FirstChildElement(end);
-    const char* link = element == nullptr ? nullptr : element->Attribute("link");
-    return link == nullptr ? "" : link;
-  }
   static std::string child_of(const TiXmlElement& joint) { return link_of(joint, "child"); }
-  static double mass_of(const TiXmlElement& link) {
-    const TiXmlElement* inertial = link.FirstChildElement("inertial");
-    const TiXmlElement* mass = inertial ? inertial->FirstChildElement("mass") : nullptr;
-    return mass == nullptr ? 0 : read_number(*mass, "value", 0);
-  }
 
   /** First link of the body that a link belongs to. */
   std::string body_of(std::string link) const {
@@ -128,7 +118,7 @@ class MechanismRepair {
       }
       TiXmlElement& mimic = *follower.joint->FirstChildElement("mimic");
       if (follower.leader->Attribute("name") != leader_of(*follower.joint)) {
-        log_.note(Severity::kRepaired, mimic, element_of(*follower.joint),
+        log_.note(Severity::kRepaired, mimic, title_of(*follower.joint),
                   "mimics a joint that mimics another one",
                   std::string("it follows ") + follower.leader->Attribute("name") + " itself");
         mimic.SetAttribute("joint", follower.leader->Attribute("name"));
@@ -164,17 +154,12 @@ class MechanismRepair {
   void add_mass(TiXmlElement& link) {
     const double mass = kLeastMassFraction * total_mass_;
     link.InsertEndChild(make_inertial(mass));
-    log_.note(Severity::kRepaired, link, std::string("link ") + link.Attribute("name"),
-              "is moved by a joint, but has no mass",
+    log_.note(Severity::kRepaired, link, title_of(link), "is moved by a joint, but has no mass",
               to_text(mass) + " kg are assumed: write <inertial>");
   }
 
   static std::string leader_of(const TiXmlElement& joint) {
-    const char* leader = joint.FirstChildElement("mimic")->Attribute("joint");
-    return leader == nullptr ? "" : leader;
-  }
-  static std::string element_of(const TiXmlElement& joint) {
-    return std::string("joint ") + joint.Attribute("name");
+    return text_of(*joint.FirstChildElement("mimic"), "joint");
   }
   struct Follower {
     TiXmlElement* joint;
@@ -196,7 +181,7 @@ class MechanismRepair {
 }  // namespace
 
 void hold_joint(TiXmlElement& joint, double angle, const std::string& problem, RepairLog& log) {
-  log.note(Severity::kRepaired, joint, std::string("joint ") + joint.Attribute("name"), problem,
+  log.note(Severity::kRepaired, joint, title_of(joint), problem,
            "it is held at " + to_text(angle) + " (fixed)");
   if (angle != 0) {
     const TiXmlElement* axis = joint.FirstChildElement("axis");

@@ -128,8 +128,9 @@ void UrdfRepair::load() {
   if (robot_->Attribute("name") == nullptr) robot_->SetAttribute("name", "robot");
   robot_->RemoveAttribute("version");
   for (const TiXmlElement* element : child_elements(*robot_)) {
-    const char* name = element->Attribute("name");
-    if (name != nullptr) result_.lines.emplace(element->ValueStr() + " " + name, element->Row());
+    if (element->Attribute("name") != nullptr) {
+      result_.lines.emplace(title_of(*element), element->Row());
+    }
   }
   colors_ = read_colors(*robot_);
   repair_dialect(*robot_, log_);
@@ -141,12 +142,10 @@ void UrdfRepair::load() {
 void UrdfRepair::open_loops() {
   std::set<std::string> children;
   for (TiXmlElement* joint : child_elements(*robot_, "joint")) {
-    const TiXmlElement* child = joint->FirstChildElement("child");
-    const char* link = child == nullptr ? nullptr : child->Attribute("link");
-    if (link != nullptr && !children.insert(link).second) {
-      const char* name = joint->Attribute("name");
-      note(Severity::kRepaired, *joint, std::string("joint ") + (name == nullptr ? "" : name),
-           std::string("closes a loop: another joint moves its child ") + link + " already",
+    const std::string link = link_of(*joint, "child");
+    if (!link.empty() && !children.insert(link).second) {
+      note(Severity::kRepaired, *joint, title_of(*joint),
+           "closes a loop: another joint moves its child " + link + " already",
            "the loop is left open");
       robot_->RemoveChild(joint);
     }
@@ -157,9 +156,8 @@ void UrdfRepair::open_loops() {
 std::multimap<std::string, TiXmlElement*> joints_by_parent(TiXmlElement& robot) {
   std::multimap<std::string, TiXmlElement*> joints;
   for (TiXmlElement* joint : child_elements(robot, "joint")) {
-    const TiXmlElement* parent = joint->FirstChildElement("parent");
-    const char* link = parent == nullptr ? nullptr : parent->Attribute("link");
-    if (link != nullptr) joints.emplace(link, joint);
+    const std::string link = link_of(*joint, "parent");
+    if (!link.empty()) joints.emplace(link, joint);
   }
   return joints;
 }
@@ -177,10 +175,8 @@ void UrdfRepair::find_root() {
   std::set<std::string> roots;
   for (const auto& [name, link] : links) roots.insert(name);
   for (const auto& [parent, joint] : joints) {
-    const TiXmlElement* child = joint->FirstChildElement("child");
-    if (child != nullptr && child->Attribute("link") != nullptr) {
-      roots.erase(child->Attribute("link"));
-    }
+    const std::string child = link_of(*joint, "child");
+    if (!child.empty()) roots.erase(child);
   }
   if (roots.empty()) fail(robot_, "has no root link", "remove the cycle of joints");
   std::vector<std::string> largest;
@@ -190,10 +186,8 @@ void UrdfRepair::find_root() {
     for (size_t i = 0; i < tree.size() && tree.size() <= links.size(); ++i) {
       const auto [first, last] = joints.equal_range(tree[i]);
       for (auto joint = first; joint != last; ++joint) {
-        const TiXmlElement* child = joint->second->FirstChildElement("child");
-        if (child != nullptr && child->Attribute("link") != nullptr) {
-          tree.emplace_back(child->Attribute("link"));
-        }
+        const std::string child = link_of(*joint->second, "child");
+        if (!child.empty()) tree.push_back(child);
       }
     }
     if (tree.size() <= largest.size()) continue;
@@ -218,9 +212,7 @@ void UrdfRepair::find_root() {
 // The robot's mass, for the assumed torque limits.
 void UrdfRepair::measure_mass() {
   for (const TiXmlElement* link : child_elements(*robot_, "link")) {
-    const TiXmlElement* inertial = link->FirstChildElement("inertial");
-    const TiXmlElement* mass = inertial ? inertial->FirstChildElement("mass") : nullptr;
-    if (mass != nullptr) mass_ += std::max(0.0, read_number(*mass, "value", 0));
+    mass_ += std::max(0.0, mass_of(*link));
   }
   if (mass_ > 0) return;
   note(
@@ -229,10 +221,8 @@ void UrdfRepair::measure_mass() {
   // Every body gets one: the root and what joints move. Frames stay without mass.
   std::set<std::string> bodies = {result_.root};
   for (const TiXmlElement* joint : child_elements(*robot_, "joint")) {
-    const TiXmlElement* child = joint->FirstChildElement("child");
-    const char* type = joint->Attribute("type");
-    if (child == nullptr || child->Attribute("link") == nullptr || type == nullptr) continue;
-    if (std::string(type) != "fixed") bodies.insert(child->Attribute("link"));
+    const std::string type = text_of(*joint, "type");
+    if (!type.empty() && type != "fixed") bodies.insert(link_of(*joint, "child"));
   }
   for (TiXmlElement* link : child_elements(*robot_, "link")) {
     if (TiXmlElement* empty = link->FirstChildElement("inertial")) link->RemoveChild(empty);
@@ -243,50 +233,43 @@ void UrdfRepair::measure_mass() {
 }
 
 void UrdfRepair::repair_limit(TiXmlElement& joint, const std::string& element, bool is_continuous) {
-  TiXmlElement* limit = joint.FirstChildElement("limit");
-  if (limit == nullptr) {
-    joint.LinkEndChild(new TiXmlElement("limit"));
-    limit = joint.FirstChildElement("limit");
-  }
+  TiXmlElement& limit = find_or_add(joint, "limit");
   const double none = std::numeric_limits<double>::quiet_NaN();
-  double lower = read_number(*limit, "lower", none);
-  double upper = read_number(*limit, "upper", none);
+  double lower = read_number(limit, "lower", none);
+  double upper = read_number(limit, "upper", none);
   // Some files write a range although the type says that there is none.
   if (is_continuous && lower < upper && lower >= -kRange && upper <= kRange) is_continuous = false;
   if (!is_continuous && lower > upper) {
     std::swap(lower, upper);
-    limit->SetAttribute("lower", to_text(lower).c_str());
-    limit->SetAttribute("upper", to_text(upper).c_str());
+    limit.SetAttribute("lower", to_text(lower).c_str());
+    limit.SetAttribute("upper", to_text(upper).c_str());
     note(Severity::kRepaired, joint, element, "has its lower limit above the upper one",
          "they are exchanged: " + to_text(lower) + " to " + to_text(upper) + " rad");
   }
   // Written so that missing numbers (NaN) get the assumed range as well.
   if (is_continuous || !(lower < upper)) {
-    limit->SetAttribute("lower", to_text(-kRange).c_str());
-    limit->SetAttribute("upper", to_text(kRange).c_str());
+    limit.SetAttribute("lower", to_text(-kRange).c_str());
+    limit.SetAttribute("upper", to_text(kRange).c_str());
     note(Severity::kRepaired, joint, element,
          is_continuous ? "is continuous" : "has no range of angles",
          "-3.14 to 3.14 rad are assumed: write the real range into <limit lower= upper=>");
   }
-  if (!(read_number(*limit, "velocity", 0) > 0)) {
-    limit->SetAttribute("velocity", to_text(kVelocity).c_str());
+  if (!(read_number(limit, "velocity", 0) > 0)) {
+    limit.SetAttribute("velocity", to_text(kVelocity).c_str());
     note(Severity::kRepaired, joint, element, "has no velocity limit",
          to_text(kVelocity) + " rad/s are assumed: write <limit velocity=>");
   }
-  if (!(read_number(*limit, "effort", 0) > 0)) {
+  if (!(read_number(limit, "effort", 0) > 0)) {
     const double torque = kTorquePerMass * mass_;
-    limit->SetAttribute("effort", to_text(torque).c_str());
+    limit.SetAttribute("effort", to_text(torque).c_str());
     note(Severity::kRepaired, joint, element, "has no effort limit",
          to_text(torque) + " N m are assumed: write <limit effort=>");
   }
 }
 
 void UrdfRepair::repair_joint(TiXmlElement& joint) {
-  const char* name = joint.Attribute("name");
-  const char* type = joint.Attribute("type");
-  if (name == nullptr) fail(&joint, "a joint has no name", "give it one");
-  const std::string element = std::string("joint ") + name;
-  const std::string kind = type == nullptr ? "" : type;
+  if (joint.Attribute("name") == nullptr) fail(&joint, "a joint has no name", "give it one");
+  const std::string kind = text_of(joint, "type");
   if (kind == "fixed") {
     for (const char* part : {"limit", "axis"}) {
       if (TiXmlElement* unused = joint.FirstChildElement(part)) joint.RemoveChild(unused);
@@ -305,29 +288,24 @@ void UrdfRepair::repair_joint(TiXmlElement& joint) {
     return hold_joint(joint, 0, "has no axis", log_);
   }
   joint.SetAttribute("type", "revolute");
-  repair_limit(joint, element, kind == "continuous");
+  repair_limit(joint, title_of(joint), kind == "continuous");
 }
 
 void UrdfRepair::repair_inertial(TiXmlElement& link, const std::string& element) {
   TiXmlElement* inertial = link.FirstChildElement("inertial");
   if (inertial == nullptr) return;
-  TiXmlElement* mass = inertial->FirstChildElement("mass");
-  const double kg = mass == nullptr ? 0 : read_number(*mass, "value", 0);
+  const double kg = mass_of(link);
   if (!(kg > 0)) {
     note(Severity::kRepaired, *inertial, element, "has no mass above 0",
          "it is a frame without mass");
     link.RemoveChild(inertial);
     return;
   }
-  TiXmlElement* inertia = inertial->FirstChildElement("inertia");
-  if (inertia == nullptr) {
-    inertial->LinkEndChild(new TiXmlElement("inertia"));
-    inertia = inertial->FirstChildElement("inertia");
-  }
+  TiXmlElement& inertia = find_or_add(*inertial, "inertia");
   for (const char* name : {"ixx", "iyy", "izz", "ixy", "ixz", "iyz"}) {
-    if (!read_numbers(*inertia, name, 1)) inertia->SetAttribute(name, "0");
+    if (!read_numbers(inertia, name, 1)) inertia.SetAttribute(name, "0");
   }
-  const auto of = [&](const char* name) { return read_number(*inertia, name, 0); };
+  const auto of = [&](const char* name) { return read_number(inertia, name, 0); };
   Eigen::Matrix3d matrix;
   matrix << of("ixx"), of("ixy"), of("ixz"), of("ixy"), of("iyy"), of("iyz"), of("ixz"), of("iyz"),
       of("izz");
@@ -336,12 +314,11 @@ void UrdfRepair::repair_inertial(TiXmlElement& link, const std::string& element)
   const Eigen::Vector3d moments =
       Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(matrix, Eigen::EigenvaluesOnly).eigenvalues();
   if (moments(0) > 0 && moments(2) <= (moments(0) + moments(1)) * (1 + 1e-9)) return;
-  const std::string moment = to_text(ball_moment(kg));
-  for (const char* name : {"ixx", "iyy", "izz"}) inertia->SetAttribute(name, moment.c_str());
-  for (const char* name : {"ixy", "ixz", "iyz"}) inertia->SetAttribute(name, "0");
-  note(Severity::kRepaired, *inertia, element,
+  set_moment(inertia, ball_moment(kg));
+  note(Severity::kRepaired, inertia, element,
        "the inertia is not physical (moments above 0, none larger than the sum of the others)",
-       "that of a sphere of its mass is assumed, " + moment + " kg m^2: export it anew");
+       "that of a sphere of its mass is assumed, " + to_text(ball_moment(kg)) +
+           " kg m^2: export it anew");
 }
 
 std::string to_lower(std::string text) {
@@ -436,7 +413,7 @@ void UrdfRepair::draw_primitive(TiXmlElement& shape, TiXmlElement& geometry) {
   const std::string kind = form.Value();
   const auto radius = static_cast<float>(read_number(form, "radius", 0));
   const auto length = static_cast<float>(read_number(form, "length", 0));
-  const char* name = shape.Attribute("name");
+  const std::string name = text_of(shape, "name");
   const Color color = color_of(shape).value_or(kPrimitiveColor);
   Mesh mesh;
   if (kind == "box") {
@@ -444,14 +421,14 @@ void UrdfRepair::draw_primitive(TiXmlElement& shape, TiXmlElement& geometry) {
     mesh = make_box(Eigen::Vector3d(size->data()).cast<float>(), color);
   } else if (kind == "sphere") {
     mesh = make_sphere(radius, color);
-  } else if (name != nullptr && std::string(name).ends_with("_capsule")) {
+  } else if (name.ends_with("_capsule")) {
     mesh = make_capsule(radius, length, color);
   } else {
     mesh = make_cylinder(radius, length, color);
   }
   TiXmlPrinter key;
   form.Accept(&key);
-  draw(shape, geometry, kind, key.Str() + (name == nullptr ? "" : name),
+  draw(shape, geometry, kind, key.Str() + name,
        [&](const fs::path& file) { write_mesh(mesh, color, file); });
 }
 
@@ -505,7 +482,7 @@ void UrdfRepair::report_mesh_units() {
 bool UrdfRepair::repair_mesh(TiXmlElement& shape, TiXmlElement& geometry, bool is_collision,
                              const std::string& element) {
   TiXmlElement& mesh = *geometry.FirstChildElement("mesh");
-  const std::string name = mesh.Attribute("filename") == nullptr ? "" : mesh.Attribute("filename");
+  const std::string name = text_of(mesh, "filename");
   const std::string link_name = shape.Parent()->ToElement()->Attribute("name");
   const fs::path source = find_mesh(name);
   if (source.empty()) {
@@ -565,7 +542,7 @@ bool UrdfRepair::repair_mesh(TiXmlElement& shape, TiXmlElement& geometry, bool i
 void UrdfRepair::repair_cylinder(TiXmlElement& shape, TiXmlElement& geometry,
                                  const std::string& element) {
   TiXmlElement& cylinder = *geometry.FirstChildElement("cylinder");
-  const std::string name = shape.Attribute("name") == nullptr ? "" : shape.Attribute("name");
+  const std::string name = text_of(shape, "name");
   const double radius = read_number(cylinder, "radius", 0);
   const double length = read_number(cylinder, "length", 0);
   if (name.ends_with("_capsule") || !(radius > 0) || !(length > 0)) return;
@@ -637,7 +614,7 @@ void UrdfRepair::draw_by_collisions(TiXmlElement& link) {
   }
   // What is found here is found again in the collisions.
   const size_t num_findings = log_.findings.size();
-  repair_shapes(link, "visual", std::string("link ") + link.Attribute("name"));
+  repair_shapes(link, "visual", title_of(link));
   log_.findings.resize(num_findings);
 }
 
@@ -650,14 +627,14 @@ RepairedUrdf UrdfRepair::run() {
     repair_joint(*joint);
   }
   for (TiXmlElement* link : child_elements(*robot_, "link")) {
-    repair_inertial(*link, std::string("link ") + link->Attribute("name"));
+    repair_inertial(*link, title_of(*link));
   }
   repair_mechanism(*robot_, log_);
   find_mesh_units(*robot_);
   report_mesh_units();
   const bool is_drawn = has_drawing(*robot_);
   for (TiXmlElement* link : child_elements(*robot_, "link")) {
-    const std::string element = std::string("link ") + link->Attribute("name");
+    const std::string element = title_of(*link);
     repair_shapes(*link, "visual", element);
     if (is_drawn) draw_by_collisions(*link);
     repair_shapes(*link, "collision", element);

@@ -50,17 +50,10 @@ double origin_of(const TiXmlElement& joint) {
   return read_origin(joint).translation().norm();
 }
 
-std::string link_of(const TiXmlElement& joint, const char* end) {
-  const TiXmlElement* element = joint.FirstChildElement(end);
-  const char* link = element == nullptr ? nullptr : element->Attribute("link");
-  return link == nullptr ? "" : link;
-}
-
 /** Of a joint that turns between two angles: the greater one, rad as the file has it; 0: none. */
 double greatest_angle(const TiXmlElement& joint) {
   const TiXmlElement* limit = joint.FirstChildElement("limit");
-  const char* type = joint.Attribute("type");
-  if (limit == nullptr || type == nullptr || std::string(type) != "revolute") return 0;
+  if (limit == nullptr || text_of(joint, "type") != "revolute") return 0;
   return std::max(std::abs(read_number(*limit, "lower", 0)),
                   std::abs(read_number(*limit, "upper", 0)));
 }
@@ -99,12 +92,12 @@ void repair_ranges(TiXmlElement& robot, RepairLog& log) {
     return;
   }
   for (TiXmlElement* limit : limits) {
-    if (greatest_angle(*limit->Parent()->ToElement()) <= kGreatestAngle) continue;
+    const TiXmlElement& joint = *limit->Parent()->ToElement();
+    if (greatest_angle(joint) <= kGreatestAngle) continue;
     const auto text = [&](const char* name) {
       return limit->Attribute(name) == nullptr ? "none" : limit->Attribute(name);
     };
-    const char* name = limit->Parent()->ToElement()->Attribute("name");
-    log.note(Severity::kRepaired, *limit, std::string("joint ") + (name == nullptr ? "" : name),
+    log.note(Severity::kRepaired, *limit, title_of(joint),
              std::string("has a range of more than a turn, ") + text("lower") + " to " +
                  text("upper") + " rad",
              "-3.14 to 3.14 rad are assumed: write the real range");

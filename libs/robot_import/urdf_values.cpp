@@ -49,11 +49,43 @@ double read_number(const TiXmlElement& element, const char* name, double otherwi
   return numbers ? numbers->front() : otherwise;
 }
 
+std::string text_of(const TiXmlElement& element, const char* name) {
+  const char* text = element.Attribute(name);
+  return text == nullptr ? "" : text;
+}
+
+std::string title_of(const TiXmlElement& element) {
+  return element.ValueStr() + " " + text_of(element, "name");
+}
+
+std::string link_of(const TiXmlElement& joint, const char* end) {
+  const TiXmlElement* element = joint.FirstChildElement(end);
+  return element == nullptr ? "" : text_of(*element, "link");
+}
+
+double mass_of(const TiXmlElement& link) {
+  const TiXmlElement* inertial = link.FirstChildElement("inertial");
+  const TiXmlElement* mass = inertial ? inertial->FirstChildElement("mass") : nullptr;
+  return mass == nullptr ? 0 : read_number(*mass, "value", 0);
+}
+
+TiXmlElement& find_or_add(TiXmlElement& parent, const char* name) {
+  TiXmlElement* child = parent.FirstChildElement(name);
+  return child != nullptr ? *child : *parent.LinkEndChild(new TiXmlElement(name))->ToElement();
+}
+
 double ball_moment(double mass) {
   constexpr double kDensity = 1000;  // kg/m^3, about that of motors in plastic shells
   const double radius = std::cbrt(3 * mass / (4 * M_PI * kDensity));
   // A solid ball: 2/5 m r^2.
   return 0.4 * mass * radius * radius;
+}
+
+void set_moment(TiXmlElement& inertia, double moment) {
+  for (const char* name : {"ixx", "iyy", "izz"}) {
+    inertia.SetAttribute(name, to_text(moment).c_str());
+  }
+  for (const char* name : {"ixy", "ixz", "iyz"}) inertia.SetAttribute(name, "0");
 }
 
 TiXmlElement make_inertial(double mass) {
@@ -62,10 +94,7 @@ TiXmlElement make_inertial(double mass) {
   value.SetAttribute("value", to_text(mass).c_str());
   inertial.InsertEndChild(value);
   TiXmlElement inertia("inertia");
-  for (const char* name : {"ixx", "iyy", "izz"}) {
-    inertia.SetAttribute(name, to_text(ball_moment(mass)).c_str());
-  }
-  for (const char* name : {"ixy", "ixz", "iyz"}) inertia.SetAttribute(name, "0");
+  set_moment(inertia, ball_moment(mass));
   inertial.InsertEndChild(inertia);
   return inertial;
 }
@@ -106,17 +135,15 @@ Eigen::Isometry3d read_origin(const TiXmlElement& parent) {
 }
 
 void write_origin(TiXmlElement& parent, const Eigen::Isometry3d& pose) {
-  TiXmlElement* origin = parent.FirstChildElement("origin");
-  if (origin == nullptr) {
-    parent.LinkEndChild(new TiXmlElement("origin"));
-    origin = parent.FirstChildElement("origin");
-  }
-  const Eigen::Matrix3d& r = pose.linear();
-  const Eigen::Vector3d rpy(std::atan2(r(2, 1), r(2, 2)),
-                            std::atan2(-r(2, 0), std::hypot(r(2, 1), r(2, 2))),
-                            std::atan2(r(1, 0), r(0, 0)));
-  origin->SetAttribute("xyz", to_text(Eigen::Vector3d(pose.translation())).c_str());
-  origin->SetAttribute("rpy", to_text(rpy).c_str());
+  TiXmlElement& origin = find_or_add(parent, "origin");
+  origin.SetAttribute("xyz", to_text(Eigen::Vector3d(pose.translation())).c_str());
+  origin.SetAttribute("rpy", to_text(to_rpy(pose.linear())).c_str());
+}
+
+Eigen::Vector3d to_rpy(const Eigen::Matrix3d& rotation) {
+  const Eigen::Matrix3d& r = rotation;
+  return {std::atan2(r(2, 1), r(2, 2)), std::atan2(-r(2, 0), std::hypot(r(2, 1), r(2, 2))),
+          std::atan2(r(1, 0), r(0, 0))};
 }
 
 }  // namespace nao
