@@ -210,10 +210,13 @@ test("where a processor draws large pixels their edges are smooth", async (t) =>
   const ofFrame = (count) => phone.page.evaluate(`(${takeFrame})().then(${count})`);
   // The field's lines would be edges too.
   await phone.context.route("**/scene.yaml", (route) => route.fulfill({body: ""}));
+  const walkSlowly = async () => {
+    await phone.sees("controller");
+    await phone.page.evaluate(beSlow);
+    await phone.page.keyboard.down("w");
+  };
   await phone.page.goto(alone.url);
-  await phone.sees("controller");
-  await phone.page.evaluate(beSlow);
-  await phone.page.keyboard.down("w");
+  await walkSlowly();
   // What smooths them is fetched then.
   const found = await until("fewer pixels are drawn, and a sixth of the edges is smooth", async () => {
     const found = await ofFrame(countEdges);
@@ -224,9 +227,7 @@ test("where a processor draws large pixels their edges are smooth", async (t) =>
   await phone.page.keyboard.up("w");
   await phone.context.unroute("**/scene.yaml");
   await phone.page.reload();
-  await phone.sees("controller");
-  await phone.page.evaluate(beSlow);
-  await phone.page.keyboard.down("w");
+  await walkSlowly();
   await until("fewer pixels are drawn again", async () => (await ofFrame(countEdges)).ratio < 0.6);
   for (let i = 0; i < 20; i++) assert.ok((await ofFrame(countMarks)) <= 5, "a border is seen");
   assert.deepEqual(phone.errors, []);
