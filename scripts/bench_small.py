@@ -111,7 +111,8 @@ def measure(bin_dir, stack_class, figure):
         time.sleep(SETTLE_TIME)
         figures += measure_usage(stack, "small.rest", figure)
         figures += measure_driving(stack, figure)
-        # Fails where the robot does.
-        for words in (("posture", "Stand"), ("action", "kick-left"), ("posture", "LyingBelly"), ("action", "get-up"), ("stop",)):
+        # Fails where the robot does. The ball lies before its left foot: a kick that moves none fails.
+        for words in (("posture", "Stand"), ("world", "place-robot", "0", "0"), ("world", "place-ball", "0.18", "0.05"),
+                      ("action", "kick-left"), ("posture", "LyingBelly"), ("action", "get-up"), ("stop",)):
             stack.nao(*words)
         return figures
