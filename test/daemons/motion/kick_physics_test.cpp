@@ -66,6 +66,13 @@ TEST(Kick, SendsTheBallMetresAndLeavesTheRobotStanding) {
   }
 }
 
+TEST(Kick, IsAsStrongFromAStandWithStraightLegs) {
+  ClosedLoop trial = make_kick_trial(1);
+  const auto end = trial.await_end(trial.send({"", 0, PostureCommand{"Stand", 0.5}}), 10);
+  ASSERT_TRUE(end && end->status == ResultStatus::kDone);
+  EXPECT_GT(kick(trial, true, kNan).x(), 4);
+}
+
 /** Kicks with the left foot. @param ball  From the best place, m. @param is_seen  The robot knows
  * where the ball is.
  * @param way  Receives the ball's displacement, m. */
