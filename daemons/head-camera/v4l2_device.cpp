@@ -183,7 +183,6 @@ bool V4l2Device::receive() {
     if (buffer.index >= buffers_.size())
       throw Error(device_ + " names a buffer that it does not have");
     if ((buffer.flags & V4L2_BUF_FLAG_ERROR) != 0 || buffer.bytesused != kImageBytes) {
-      ++num_damaged_;
       queue(index);
       continue;
     }

@@ -25,7 +25,7 @@ class V4l2Device {
   /** Readable when an image has arrived. */
   int descriptor() const { return descriptor_; }
 
-  /** Takes the images that have arrived and keeps the newest; damaged ones are counted and dropped.
+  /** Takes the images that have arrived and keeps the newest; damaged ones are dropped.
    * @return Whether there is a new image. @throws Error  if the camera has failed. */
   bool receive();
   bool has_image() const { return newest_ >= 0; }
@@ -36,7 +36,6 @@ class V4l2Device {
   double image_time() const { return image_time_; }
   /** Fixed exposure time, s; 0 if the camera chooses it. */
   double exposure_time() const { return exposure_time_; }
-  int64_t num_damaged() const { return num_damaged_; }
   /** Controls that were refused, one sentence each. */
   const std::vector<std::string>& problems() const { return problems_; }
 
@@ -62,7 +61,6 @@ class V4l2Device {
   int newest_ = -1;
   double image_time_ = 0;
   double exposure_time_ = 0;
-  int64_t num_damaged_ = 0;
   std::vector<std::string> problems_;
 };
 

@@ -1,7 +1,5 @@
 #include "daemons/vision/vision_messages.h"
 
-#include <cmath>
-
 #include "common/error.h"
 #include "messages/named_joints.h"
 #include "messages/pose_message.h"

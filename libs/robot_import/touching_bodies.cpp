@@ -2,6 +2,7 @@
 
 #include <map>
 #include <random>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -65,15 +66,15 @@ bool touch(const std::vector<Part>& parts, const std::vector<std::pair<int, int>
 
 std::string make_allowed_contacts_text(const RobotModel& model) {
   const std::vector<Part> parts = find_parts(model);
-  std::map<BodyPair, bool> allowed;
+  std::set<BodyPair> allowed;
   for (const auto& [a, b] : model.allowed_contacts()) {
-    allowed[std::minmax(model.find_body(a), model.find_body(b))] = true;
+    allowed.insert(std::minmax(model.find_body(a), model.find_body(b)));
   }
   PartPairs pairs;
   for (int i = 0; i < static_cast<int>(parts.size()); ++i) {
     for (int k = i + 1; k < static_cast<int>(parts.size()); ++k) {
       const BodyPair bodies = std::minmax(parts[i].body, parts[k].body);
-      if (bodies.first != bodies.second && allowed.count(bodies) == 0) {
+      if (bodies.first != bodies.second && !allowed.contains(bodies)) {
         pairs[bodies].emplace_back(i, k);
       }
     }

@@ -82,9 +82,9 @@ ClosedLoop::ClosedLoop(const ClosedLoopOptions& options, uint64_t seed,
   if (!disturbances.is_none()) {
     // The disturbances have taken the first numbers of the same sequence.
     for (int i = 0; i < sim::kNumSharedDraws; ++i) random_.next();
-    if (options.command_latency_ticks > 0) {
-      robot.command_latency_ticks = options.command_latency_ticks;
-    }
+  }
+  if (options.command_latency_ticks > 0) {
+    robot.command_latency_ticks = options.command_latency_ticks;
   }
   world_->add_robot(options.model, robot);
   restart_core();

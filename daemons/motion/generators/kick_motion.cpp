@@ -18,9 +18,9 @@ using Eigen::Vector3d;
 
 // The servos' offsets fade in at the start and out at the end, where the targets are angles, s.
 constexpr double kFade = 0.3;
-// Part of the hips' height by which they may be higher or lower than in the ready posture, for which
-// a kick is made. Chosen: a walk leaves 0.1 %; 4 % more straighten a NAO's knees, and its foot has
-// 0.6 of its speed.
+// Part of the hips' height by which they may be higher or lower than in the ready posture, for
+// which a kick is made. Chosen: a walk leaves 0.1 %; 4 % more straighten a NAO's knees, and its
+// foot has 0.6 of its speed.
 constexpr double kSameHipHeight = 0.02;
 
 /** Whether a kick can begin in the pose that these targets make. */

@@ -8,7 +8,6 @@
 #include <boost/beast/websocket.hpp>
 #include <chrono>
 #include <filesystem>
-#include <optional>
 #include <vector>
 
 #include "common/error.h"

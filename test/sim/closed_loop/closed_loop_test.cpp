@@ -55,6 +55,18 @@ TEST(ClosedLoop, KeepsAResultOfARepeatedWalkOnce) {
   EXPECT_TRUE(loop.results().empty());
 }
 
+TEST(ClosedLoop, DelaysCommandsAlsoWithoutDisturbances) {
+  ClosedLoopOptions late_options = options_with_tick(10);
+  late_options.command_latency_ticks = 5;
+  ClosedLoop loop(options_with_tick(10), 1);
+  ClosedLoop late(late_options, 1);
+  for (ClosedLoop* each : {&loop, &late}) {
+    each->hold_walk({0.1, 0, 0});
+    each->run(2);
+  }
+  EXPECT_NE(loop.torso_in_world().translation(), late.torso_in_world().translation());
+}
+
 TEST(ClosedLoop, RejectsAControlPeriodBetweenPhysicsSteps) {
   EXPECT_THROW(ClosedLoop(options_with_tick(11), 1), ConfigError);
   EXPECT_THROW(ClosedLoop(options_with_tick(-2), 1), ConfigError);
