@@ -14,11 +14,12 @@ Eigen::Vector2d pair_of(const YamlEntry& entry) {
 
 Kick Kick::load(const std::filesystem::path& file) {
   const YamlEntry root = YamlEntry::load(file);
-  root.allow_only({"ball", "ball_reach", "ball_contact", "strike_duration", "strength",
-                   "balance_gain", "zmp_reach", "phases", "impact"});
+  root.allow_only({"ball", "ball_reach", "foot_reach", "ball_contact", "strike_duration",
+                   "strength", "balance_gain", "zmp_reach", "phases", "impact"});
   Kick kick;
   kick.ball = pair_of(root.at("ball"));
   kick.ball_reach = pair_of(root.at("ball_reach"));
+  kick.foot_reach = pair_of(root.at("foot_reach"));
   kick.ball_contact = root.at("ball_contact").number();
   const std::vector<double> strike = root.at("strike_duration").numbers(2);
   if (strike[0] <= 0 || strike[1] <= 0) root.at("strike_duration").fail("must be above 0");

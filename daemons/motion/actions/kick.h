@@ -27,6 +27,7 @@ struct Kick {
 
   Eigen::Vector2d ball = Eigen::Vector2d::Zero();
   Eigen::Vector2d ball_reach = Eigen::Vector2d::Zero();
+  Eigen::Vector2d foot_reach = Eigen::Vector2d::Zero();
   double ball_contact = 0;
   /** At strength 0 and 1. */
   std::array<double, 2> strike_duration{};

@@ -44,7 +44,8 @@ KickTrajectory::KickTrajectory(const Kick& kick, bool is_left, const Vector2d& b
   // Phases are given for a left foot that kicks; the y of a right one is negated.
   const double side = is_left ? 1 : -1;
   // The foot swings in the vertical plane that the ball lies in.
-  const double sideways = std::isnan(ball.y()) ? 0 : side * ball.y() - kick.ball.y();
+  const double beside = std::isnan(ball.y()) ? 0 : side * ball.y() - kick.ball.y();
+  const double sideways = std::max(kick.foot_reach[0], std::min(beside, kick.foot_reach[1]));
   for (const Kick::Phase& phase : kick.phases) {
     Segment segment{
         phase.duration, {phase.com, phase.foot, 0, phase.pitch}, phase.name == "strike"};

@@ -18,6 +18,7 @@ Kick make_kick() {
   Kick kick;
   kick.ball = {0.18, 0.05};
   kick.ball_reach = {0.05, 0.025};
+  kick.foot_reach = {-0.01, 0.01};
   kick.ball_contact = 0.15;
   kick.strike_duration = {0.6, 0.1};
   kick.strength = 1;
@@ -92,7 +93,10 @@ TEST(KickTrajectory, ImpactIsWhereTheFootReachesTheBall) {
 }
 
 TEST(KickTrajectory, FootSwingsInThePlaneOfTheBall) {
-  EXPECT_NEAR(make_trajectory({kUnset, 0.06}).at(0.25).foot.y(), 0.11, 1e-12);
+  EXPECT_NEAR(make_trajectory({kUnset, 0.055}).at(0.25).foot.y(), 0.105, 1e-12);
+  // Up to its reach.
+  EXPECT_NEAR(make_trajectory({kUnset, 0.07}).at(0.25).foot.y(), 0.11, 1e-12);
+  EXPECT_NEAR(make_trajectory({kUnset, 0.03}).at(0.25).foot.y(), 0.09, 1e-12);
 }
 
 TEST(KickTrajectory, WeakerStrikesTakeLonger) {
