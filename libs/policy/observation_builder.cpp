@@ -24,9 +24,9 @@ ObservationBuilder::ObservationBuilder(const PolicyManifest& manifest) : manifes
   reset();
 }
 
-void ObservationBuilder::reset() {
+void ObservationBuilder::reset(double lead) {
   has_begun_ = false;
-  phase_ = manifest_->phase_start;
+  phase_ = std::fmod(manifest_->phase_start + lead, 1.0);
 }
 
 void ObservationBuilder::advance_phase(const PolicyInput& input) {

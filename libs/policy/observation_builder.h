@@ -27,8 +27,8 @@ class ObservationBuilder {
   /** @param manifest  Must outlive this. */
   explicit ObservationBuilder(const PolicyManifest& manifest);
 
-  /** Forgets all steps; the phase is at its start. */
-  void reset();
+  /** Forgets all steps; the phase is at its start. @param lead  In addition, cycles. */
+  void reset(double lead = 0);
 
   /** One step, which moves the phase on unless it is the first. @param last_action  Of the step
    * before, (num_actions()). @return (num_observations()), valid until the next call. */

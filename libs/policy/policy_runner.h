@@ -20,8 +20,9 @@ class PolicyRunner {
   /** All must outlive this. */
   PolicyRunner(const RobotModel& model, const PolicyManifest& manifest, PolicyNetwork& network);
 
-  /** Begins anew: no history, action 0, the phase at its start. */
-  void start();
+  /** Begins anew: no history, action 0, the phase at its start. @param lead  In addition, cycles.
+   */
+  void start(double lead = 0);
 
   /** One control step. @param dt  Time since the last one, s.
    * @return Why the policy must not go on; nothing if it may. */

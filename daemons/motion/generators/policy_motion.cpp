@@ -70,7 +70,9 @@ PolicyMotion::PolicyMotion(const RobotModel& model, const Policy& policy,
 }
 
 void PolicyMotion::start(const MotionContext& context, const JointTargets& targets) {
-  if (kind() == Kind::kGetUp) {
+  if (!stand_up_) {
+    begin_recovery(context.state, targets);
+  } else if (kind() == Kind::kGetUp) {
     begin_policy(targets);
   } else if (is_walking_stance(context.model, targets.position)) {
     approach(context, targets);
@@ -92,6 +94,16 @@ void PolicyMotion::begin_policy(const JointTargets& targets) {
   time_ = 0;
   begin_ = targets.position;
   runner_.start();
+}
+
+void PolicyMotion::begin_recovery(const RobotState& state, const JointTargets& targets) {
+  begin_policy(targets);
+  // The robot has no time for a change from its targets to the policy's.
+  time_ = kBlendTime;
+  const Eigen::AngleAxisd heading(heading_of(state.torso_in_odometry.linear()),
+                                  Eigen::Vector3d::UnitZ());
+  const bool is_left = (heading.inverse() * state.center_of_mass_velocity_in_odometry).y() > 0;
+  runner_.start(is_left ? 0 : kRightLead);
 }
 
 void PolicyMotion::return_to_stand(const MotionContext& context, const JointTargets& targets) {
@@ -190,6 +202,10 @@ bool PolicyMotion::run(const MotionContext& context, JointTargets& targets) {
 }
 
 void PolicyMotion::steer(const MotionContext& context) {
+  if (!stand_up_ && time_ < kRecoveryTime) {
+    velocity_ = kStepInPlace;
+    return;
+  }
   age_ += context.dt;
   const PolicyManifest& limits = *policy_->manifest;
   Eigen::Vector3d goal(std::clamp(command_.vx, limits.vx.lower, limits.vx.upper),
@@ -286,6 +302,10 @@ bool PolicyMotion::must_stay_upright() const {
   if (stage_ == Stage::kStandingUp) return stand_up_->must_stay_upright();
   if (stage_ == Stage::kEnding) return end_->must_stay_upright();
   return kind() != Kind::kGetUp;
+}
+
+std::optional<double> PolicyMotion::fall_tilt() const {
+  return is_policy_moving() ? policy_->manifest->fall_tilt : std::nullopt;
 }
 
 void PolicyMotion::describe(MotionState& state) const {

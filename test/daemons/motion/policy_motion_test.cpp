@@ -139,6 +139,33 @@ TEST_F(PolicyMotionTest, ARobotThatTipsFallsSafelyAndThenUsesItsGait) {
   EXPECT_EQ(loop_->core().motion_state().mode, Mode::kFalling);
 }
 
+TEST_F(PolicyMotionTest, ARobotFallsAtTheTiltOfItsPolicy) {
+  robot_.add("lean", std::string(kWalk) + "fall_tilt: 0.6\n",
+             "  - {name: Left_Ankle_Pitch}\n  - {name: Right_Ankle_Pitch}\n", 5,
+             {OnnxFile::constant(5, {-0.6F, -0.6F})});
+  begin("lean");
+  loop_->hold_walk({0.3, 0, 0});
+  EXPECT_TRUE(
+      loop_->run_until([&] { return loop_->core().motion_state().mode == Mode::kFalling; }, 5));
+  EXPECT_NEAR(loop_->torso_tilt(), 0.6, 0.1);
+}
+
+TEST_F(PolicyMotionTest, APolicyIsThePushRecoveryOfARobotThatStands) {
+  robot_.add("hold", std::string(kWalk) + "recovery_margin: 0.02\n", kKnees, 5,
+             {OnnxFile::constant(5, {0, 0})});
+  begin();
+  const double weight = loop_->model().total_mass();
+  // The capture point stays on the soles.
+  loop_->world().push(0, 0, {0, 0.1 * weight, 0});
+  loop_->run(1);
+  EXPECT_EQ(loop_->core().motion_state().mode, Mode::kHolding);
+  loop_->world().push(0, 0, {0, 0.6 * weight, 0});
+  loop_->run(0.1);
+  EXPECT_EQ(loop_->core().motion_state().mode, Mode::kWalking);
+  EXPECT_EQ(loop_->core().motion_state().command_name, "push-recovery");
+  EXPECT_GT(loop_->core().motion_state().walk_velocity.x(), 0);
+}
+
 TEST_F(PolicyMotionTest, ARemovedFileIsARefusalWithItsName) {
   robot_.add("hold", kWalk, kKnees, 5, {OnnxFile::constant(5, {0, 0})});
   begin("hold");
