@@ -26,6 +26,10 @@ ObservationBuilder::ObservationBuilder(const PolicyManifest& manifest) : manifes
 
 void ObservationBuilder::reset(double lead) {
   has_begun_ = false;
+  restart_phase(lead);
+}
+
+void ObservationBuilder::restart_phase(double lead) {
   phase_ = std::fmod(manifest_->phase_start + lead, 1.0);
 }
 

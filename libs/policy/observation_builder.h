@@ -34,6 +34,9 @@ class ObservationBuilder {
    * before, (num_actions()). @return (num_observations()), valid until the next call. */
   const std::vector<float>& build(const PolicyInput& input, const std::vector<float>& last_action);
 
+  /** Moves the phase to its start. @param lead  In addition, cycles. */
+  void restart_phase(double lead);
+
   /** Phase of the gait in the last step, cycles, 0 to 1. */
   double phase() const { return phase_; }
 

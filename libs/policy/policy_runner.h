@@ -28,6 +28,9 @@ class PolicyRunner {
    * @return Why the policy must not go on; nothing if it may. */
   std::optional<std::string> step(const PolicyInput& input, double dt);
 
+  /** Moves the phase to its start. @param lead  In addition, cycles. */
+  void restart_phase(double lead) { builder_.restart_phase(lead); }
+
   /** Targets of the manifest's joints, rad, in its order. */
   const std::vector<double>& targets() const { return targets_; }
   const std::vector<float>& observation() const { return observation_; }
