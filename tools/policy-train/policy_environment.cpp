@@ -28,19 +28,19 @@ constexpr double kFastShare = 0.35;
 constexpr double kFast = 0.7;
 constexpr double kFastRestShare = 0.5;
 // Share of the commands 0 at which a robot that is pushed steps in place. Chosen.
-constexpr double kInPlaceShare = 0.5;
+constexpr double kInPlaceShare = 0.3;
 // Time constant of the mean error of the velocity, s. Chosen: most of a gait cycle.
 constexpr double kMeanTime = 0.5;
 // Mean time between two pushes, s; greatest impulse of a robot's first pushes, N s for each kg, and
 // factors on it after an episode without and with a fall. Chosen: harder pushes as they are
 // withstood, so that about one in five throws the robot over.
 constexpr double kPushTime = 2;
-constexpr double kFirstPush = 0.5;
+constexpr double kFirstPush = 0.6;
 constexpr double kHarder = 1.15;
 constexpr double kEasier = 0.93;
 // Share of the episodes that begin with a push, and the greatest time from it until the policy
 // moves the robot, s. Chosen: nao-motion lets a policy catch a robot 20 to 60 ms after a push.
-constexpr double kPushedShare = 0.5;
+constexpr double kPushedShare = 0.6;
 constexpr double kCatchTime = 0.08;
 
 sim::WorldOptions world_options(const EnvironmentOptions& options, uint64_t seed) {
