@@ -160,6 +160,9 @@ void MotionCore::handle_falls(double dt) {
   // A robot without a motion stands, and must not fall either.
   activity.must_stay_upright = running == nullptr || running->generator->must_stay_upright();
   activity.is_walking = arbiter_.is_walking();
+  if (running != nullptr) {
+    activity.walking_tilt = running->generator->fall_tilt().value_or(kWalkingFallTilt);
+  }
   switch (falls_.update(estimator_.state(), activity, dt)) {
     case FallSupervisor::Action::kProtect:
       arbiter_.abort_all(running ? running->generator->note_fall() : Reason("robot-fell"));
@@ -176,7 +179,9 @@ void MotionCore::handle_falls(double dt) {
 
 void MotionCore::handle_push() {
   if (!has_first_motion_ || !arbiter_.is_idle() || falls_.has_fallen() || is_relaxed()) return;
-  if (!standing_ || !standing_->must_step(estimator_.state())) return;
+  const RobotState& state = estimator_.state();
+  const bool must_step = standing_ && standing_->must_step(state);
+  if (!must_step && factory_.find_recovery_policy(state) == nullptr) return;
   auto steps = factory_.make_push_recovery(context(0), targets_);
   if (steps == nullptr) return;
   arbiter_.start({std::move(steps), std::nullopt, "push-recovery"}, context(0), targets_);

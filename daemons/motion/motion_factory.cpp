@@ -166,10 +166,21 @@ std::unique_ptr<MotionGenerator> MotionFactory::make_get_up(int num_tries) const
 
 std::unique_ptr<MotionGenerator> MotionFactory::make_push_recovery(const MotionContext& context,
                                                                    const JointTargets& targets) {
-  if (find_walk_obstacle({context, targets}) || !is_walking_stance(*model_, targets.position)) {
-    return nullptr;
+  const Situation situation{context, targets};
+  if (find_leg_obstacle(situation) || !is_walking_stance(*model_, targets.position)) return nullptr;
+  if (const Policy* policy = find_recovery_policy(context.state)) {
+    return std::make_unique<PolicyMotion>(*model_, *policy, nullptr, make_stand_path(),
+                                          WalkCommand{}, [] {});
   }
   return std::make_unique<WalkMotion>(*model_, *gait_, make_stand_path(), std::nullopt);
+}
+
+const Policy* MotionFactory::find_recovery_policy(const RobotState& state) const {
+  for (const Policy& policy : policies_) {
+    const auto margin = policy.manifest ? policy.manifest->recovery_margin : std::nullopt;
+    if (margin && policy.fault.empty() && is_pushed_off(state, *margin)) return &policy;
+  }
+  return nullptr;
 }
 
 std::optional<StandingBalance> MotionFactory::make_standing_balance() const {

@@ -62,10 +62,13 @@ class MotionFactory {
    * another motion is tried. */
   std::unique_ptr<MotionGenerator> make_get_up(int num_tries) const;
 
-  /** Steps of a standing robot that was pushed, until it stands again; nullptr if it must not step.
-   * @param targets  As sent in the last step. */
+  /** Steps of a standing robot that was pushed, until it stands again; nullptr if it must not step,
+   * or need not. @param targets  As sent in the last step. */
   std::unique_ptr<MotionGenerator> make_push_recovery(const MotionContext& context,
                                                       const JointTargets& targets);
+
+  /** The policy that is the robot's push recovery now; nullptr: none, or a push that needs none. */
+  const Policy* find_recovery_policy(const RobotState& state) const;
 
   /** Balance of a standing robot with a gait; nothing without. */
   std::optional<StandingBalance> make_standing_balance() const;

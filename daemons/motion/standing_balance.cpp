@@ -5,6 +5,7 @@
 
 #include "daemons/motion/falls/fall_monitor.h"
 #include "kinematics/pose2.h"
+#include "kinematics/support_polygon.h"
 
 namespace nao::motion {
 namespace {
@@ -13,11 +14,20 @@ namespace {
 // least impulse for each kg that throws over a robot which does not step (nao-trial push-course).
 constexpr double kPushVelocity = 0.2;
 
+bool is_pushed(const RobotState& state) {
+  return state.center_of_mass_velocity_in_odometry.head<2>().norm() >= kPushVelocity;
+}
+
 }  // namespace
 
+// A robot that is lifted has no support polygon: its margin is NaN.
+bool is_pushed_off(const RobotState& state, double margin) {
+  return is_pushed(state) &&
+         margin_in_polygon(state.support_polygon_in_odometry, calc_capture_point(state)) < -margin;
+}
+
 bool StandingBalance::must_step(const RobotState& state) const {
-  const Eigen::Vector2d velocity = state.center_of_mass_velocity_in_odometry.head<2>();
-  if (velocity.norm() < kPushVelocity) return false;
+  if (!is_pushed(state)) return false;
   const double heading = heading_of(state.torso_in_odometry.linear());
   const Eigen::Vector2d ahead(std::cos(heading), std::sin(heading));
   const double capture_point = ahead.dot(calc_capture_point(state));

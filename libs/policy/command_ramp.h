@@ -8,6 +8,13 @@ namespace nao {
  * people's policies are trained with jumps; less is gentler. */
 inline const Eigen::Vector3d kPolicyAcceleration(1, 1, 2);
 
+/** Velocity at which a policy steps in place, m/s: its phase may rest at 0. */
+inline const Eigen::Vector3d kStepInPlace(1e-6, 0, 0);
+/** Time for which a robot that was pushed steps in place, s, and the lead of its phase, cycles,
+ * when it is pushed to the right: the foot on that side swings first. Chosen: two gait cycles. */
+inline constexpr double kRecoveryTime = 1.4;
+inline constexpr double kRightLead = 0.5;
+
 /** @return The commanded velocity, m/s and rad/s, after a time dt, s, on its way to a goal. */
 inline Eigen::Vector3d ramp_command(const Eigen::Vector3d& command, const Eigen::Vector3d& goal,
                                     double dt) {

@@ -24,9 +24,13 @@ ObservationBuilder::ObservationBuilder(const PolicyManifest& manifest) : manifes
   reset();
 }
 
-void ObservationBuilder::reset() {
+void ObservationBuilder::reset(double lead) {
   has_begun_ = false;
-  phase_ = manifest_->phase_start;
+  restart_phase(lead);
+}
+
+void ObservationBuilder::restart_phase(double lead) {
+  phase_ = std::fmod(manifest_->phase_start + lead, 1.0);
 }
 
 void ObservationBuilder::advance_phase(const PolicyInput& input) {

@@ -27,12 +27,15 @@ class ObservationBuilder {
   /** @param manifest  Must outlive this. */
   explicit ObservationBuilder(const PolicyManifest& manifest);
 
-  /** Forgets all steps; the phase is at its start. */
-  void reset();
+  /** Forgets all steps; the phase is at its start. @param lead  In addition, cycles. */
+  void reset(double lead = 0);
 
   /** One step, which moves the phase on unless it is the first. @param last_action  Of the step
    * before, (num_actions()). @return (num_observations()), valid until the next call. */
   const std::vector<float>& build(const PolicyInput& input, const std::vector<float>& last_action);
+
+  /** Moves the phase to its start. @param lead  In addition, cycles. */
+  void restart_phase(double lead);
 
   /** Phase of the gait in the last step, cycles, 0 to 1. */
   double phase() const { return phase_; }

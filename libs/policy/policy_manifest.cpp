@@ -20,6 +20,8 @@ constexpr size_t kMaxConstants = 1000;
 constexpr double kMaxFrequency = 20;
 constexpr double kMaxDuration = 60;
 constexpr double kMaxGain = 1e4;
+// Chosen: from there on the robot needs its time to protect itself.
+constexpr double kMaxFallTilt = 0.8;
 
 constexpr std::array kQuantities = {"angular_velocity", "linear_velocity", "projected_gravity",
                                     "velocity_command", "linear_command",  "turn_command",
@@ -71,7 +73,7 @@ class Reader {
   void read(const YamlEntry& root) {
     root.allow_only({"kind", "network", "source", "rate", "observations", "history", "phase",
                      "observation_clip", "joints", "held_joints", "observed_joints", "action",
-                     "command", "duration"});
+                     "command", "duration", "fall_tilt", "recovery_margin"});
     manifest_.kind = static_cast<PolicyManifest::Kind>(
         read_choice(root.at("kind"), std::array{"walk", "get-up", "action"}));
     manifest_.network = root.at("network").text();
@@ -97,6 +99,13 @@ class Reader {
                       : "lacks \"duration\", in seconds");
     }
     manifest_.duration = read_number(root, "duration", 0.1, kMaxDuration, 0);
+    if (root.has("fall_tilt")) {
+      manifest_.fall_tilt = read_number(root, "fall_tilt", 0.1, kMaxFallTilt, 0);
+    }
+    if (root.has("recovery_margin")) {
+      if (!walks) root.at("recovery_margin").fail("is for walks only");
+      manifest_.recovery_margin = read_number(root, "recovery_margin", -1, 1, 0);
+    }
   }
 
  private:

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -103,6 +104,11 @@ struct PolicyManifest {
   PolicyRange wz;
   /** Longest duration of a get-up and duration of an action, s. */
   double duration = 0;
+  /** Tilt of the torso from which on it does not recover, rad; nothing: as of other walks. */
+  std::optional<double> fall_tilt;
+  /** The walk is the push recovery of a robot that stands, whose capture point is so far outside of
+   * the soles, m; nothing: it is not. */
+  std::optional<double> recovery_margin;
 
   /** Numbers of an observation with all its steps. */
   int num_observations() const;

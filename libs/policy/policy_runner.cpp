@@ -30,8 +30,8 @@ PolicyRunner::PolicyRunner(const RobotModel& model, const PolicyManifest& manife
   start();
 }
 
-void PolicyRunner::start() {
-  builder_.reset();
+void PolicyRunner::start(double lead) {
+  builder_.reset(lead);
   action_.assign(manifest_->joints.size(), 0.0F);
   targets_.clear();
   for (const PolicyJoint& joint : manifest_->joints) targets_.push_back(joint.default_angle);

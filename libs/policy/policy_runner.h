@@ -20,12 +20,16 @@ class PolicyRunner {
   /** All must outlive this. */
   PolicyRunner(const RobotModel& model, const PolicyManifest& manifest, PolicyNetwork& network);
 
-  /** Begins anew: no history, action 0, the phase at its start. */
-  void start();
+  /** Begins anew: no history, action 0, the phase at its start. @param lead  In addition, cycles.
+   */
+  void start(double lead = 0);
 
   /** One control step. @param dt  Time since the last one, s.
    * @return Why the policy must not go on; nothing if it may. */
   std::optional<std::string> step(const PolicyInput& input, double dt);
+
+  /** Moves the phase to its start. @param lead  In addition, cycles. */
+  void restart_phase(double lead) { builder_.restart_phase(lead); }
 
   /** Targets of the manifest's joints, rad, in its order. */
   const std::vector<double>& targets() const { return targets_; }

@@ -8,7 +8,7 @@ namespace nao::trial {
 
 /** Pushes the standing robot until it falls.
  * @param direction  Direction of the push, rad: 0 forward, pi / 2 to the left.
- * @return false if it has not fallen after 5 s. */
+ * @return false if it has not fallen 5 s after the second push, which is twice as strong. */
 bool knock_over(ClosedLoop& trial, double direction);
 
 /** Places the robot lying, with joint angles up to 0.5 rad from StandInit, and starts a new motion

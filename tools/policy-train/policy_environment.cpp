@@ -12,8 +12,8 @@
 namespace nao::policy_train {
 namespace {
 
-// Tilt of a torso that has fallen, rad, and its height, as a fraction of the start's. Chosen: no
-// walk comes back from there.
+// Tilt of a torso that has fallen, rad, if the manifest does not say, and its height, as a fraction
+// of the start's. Chosen: no walk comes back from there.
 constexpr double kFallenTilt = 0.6;
 constexpr double kFallenHeight = 0.6;
 // Time for which a lying robot comes to rest, s. Chosen.
@@ -27,15 +27,21 @@ constexpr double kSingleShare = 0.3;
 constexpr double kFastShare = 0.35;
 constexpr double kFast = 0.7;
 constexpr double kFastRestShare = 0.5;
+// Share of the commands 0 at which a robot that is pushed steps in place. Chosen.
+constexpr double kInPlaceShare = 0.3;
 // Time constant of the mean error of the velocity, s. Chosen: most of a gait cycle.
 constexpr double kMeanTime = 0.5;
 // Mean time between two pushes, s; greatest impulse of a robot's first pushes, N s for each kg, and
 // factors on it after an episode without and with a fall. Chosen: harder pushes as they are
 // withstood, so that about one in five throws the robot over.
-constexpr double kPushTime = 3;
-constexpr double kFirstPush = 0.3;
+constexpr double kPushTime = 2;
+constexpr double kFirstPush = 0.6;
 constexpr double kHarder = 1.15;
 constexpr double kEasier = 0.93;
+// Share of the episodes that begin with a push, and the greatest time from it until the policy
+// moves the robot, s. Chosen: nao-motion lets a policy catch a robot 20 to 60 ms after a push.
+constexpr double kPushedShare = 0.6;
+constexpr double kCatchTime = 0.08;
 
 sim::WorldOptions world_options(const EnvironmentOptions& options, uint64_t seed) {
   sim::WorldOptions result;
@@ -53,7 +59,8 @@ PolicyEnvironment::PolicyEnvironment(const EnvironmentOptions& options, uint64_t
       push_(std::min(options.push, kFirstPush)),
       world_(std::make_unique<sim::World>(options.scene, world_options(options, seed))),
       builder_(*options.manifest),
-      action_(options.manifest->joints.size()) {
+      action_(options.manifest->joints.size()),
+      limiter_(*options.model) {
   sim::RobotOptions robot;
   draw_robot(*options.disturbances, seed, 0, *options.model, world_->options(), robot);
   world_->add_robot(options.model, robot);
@@ -72,7 +79,7 @@ PolicyEnvironment::PolicyEnvironment(const EnvironmentOptions& options, uint64_t
   // The start of every episode of a walk, and what height and stance are compared with.
   std::fill(action_.begin(), action_.end(), 0.0F);
   set_targets();
-  place();
+  place(false);
   sample(start_.emplace());
 }
 
@@ -80,14 +87,24 @@ void PolicyEnvironment::reset(const StepOutput& output) {
   world_->reset();
   std::fill(action_.begin(), action_.end(), 0.0F);
   set_targets();
-  if (options_.manifest->kind == PolicyManifest::Kind::kGetUp) {
+  const bool is_get_up = options_.manifest->kind == PolicyManifest::Kind::kGetUp;
+  const bool is_pushed = options_.push > 0 && !is_get_up && random_.uniform() < kPushedShare;
+  if (is_get_up) {
     lay_down();
   } else {
-    place();
+    place(is_pushed);
   }
   builder_.reset();
+  if (is_pushed) {
+    // As PolicyMotion begins push recovery.
+    builder_.reset(push() > 0 ? 0 : kRightLead);
+    hold(random_.uniform(0, kCatchTime));
+  }
   num_steps_ = 0;
-  input_.command = options_.command.value_or(Eigen::Vector3d::Zero());
+  num_recovery_steps_ =
+      is_pushed ? static_cast<int>(std::lround(kRecoveryTime / options_.manifest->period)) : 0;
+  const Eigen::Vector3d zero = Eigen::Vector3d::Zero();
+  input_.command = options_.command.value_or(is_pushed ? kStepInPlace : zero);
   is_resting_ = options_.rest_share > 0 && random_.uniform() < options_.rest_share;
   draw_goal();
   sample(before_);
@@ -95,9 +112,9 @@ void PolicyEnvironment::reset(const StepOutput& output) {
   observe(output);
 }
 
-void PolicyEnvironment::place() {
-  Posture posture;
-  posture.position = options_.manifest->default_position;
+void PolicyEnvironment::place(bool is_ready) {
+  Posture posture = options_.model->ready_posture();
+  if (!is_ready) posture.position = options_.manifest->default_position;
   for (const PolicyJoint& joint : options_.manifest->joints) {
     double& angle = posture.position[static_cast<size_t>(joint.motor)];
     const Joint& limits = options_.model->motor_joint(joint.motor);
@@ -105,19 +122,35 @@ void PolicyEnvironment::place() {
     angle = std::clamp(drawn, limits.lower, std::max(limits.lower, limits.upper));
   }
   world_->place_robot(0, &posture, Eigen::Vector3d::Zero());
-  world_->set_targets(0, targets_);
+  sent_ = posture.position;
+}
+
+void PolicyEnvironment::hold(double duration) {
+  sim::MotorTargets held = targets_;
+  held.position = Eigen::VectorXd::Map(sent_.data(), static_cast<long>(sent_.size()));
+  const double period = world_->options().period();
+  for (double t = 0; t < duration; t += period) {
+    world_->set_targets(0, held);
+    world_->step_tick();
+  }
+}
+
+void PolicyEnvironment::step_tick() {
+  position_.assign(targets_.position.begin(), targets_.position.end());
+  limiter_.limit(sent_, world_->options().period(), position_);
+  std::swap(sent_, position_);
+  sim::MotorTargets limited = targets_;
+  limited.position = Eigen::VectorXd::Map(sent_.data(), static_cast<long>(sent_.size()));
+  world_->set_targets(0, limited);
+  world_->step_tick();
 }
 
 void PolicyEnvironment::lay_down() {
   const Posture posture =
       sim::lay_down(*world_, 0, random_.uniform(-M_PI, M_PI),
                     [this](double low, double high) { return random_.uniform(low, high); });
-  sim::MotorTargets held = targets_;
-  held.position =
-      Eigen::VectorXd::Map(posture.position.data(), static_cast<long>(posture.position.size()));
-  world_->set_targets(0, held);
-  const double period = world_->options().period();
-  for (double t = 0; t < kLyingTime; t += period) world_->step_tick();
+  sent_ = posture.position;
+  hold(kLyingTime);
 }
 
 void PolicyEnvironment::step(const float* action, const StepOutput& output) {
@@ -127,11 +160,8 @@ void PolicyEnvironment::step(const float* action, const StepOutput& output) {
     action_[i] = std::isfinite(action[i]) ? std::clamp(action[i], -clip, clip) : 0.0F;
   }
   set_targets();
-  maybe_push();
-  for (int i = 0; i < ticks_per_step_; ++i) {
-    world_->set_targets(0, targets_);
-    world_->step_tick();
-  }
+  if (options_.push > 0 && random_.uniform() < manifest.period / kPushTime) push();
+  for (int i = 0; i < ticks_per_step_; ++i) step_tick();
   ++num_steps_;
   sample(after_);
   Eigen::Vector3d error = velocity_in_heading(after_) - input_.command;
@@ -140,7 +170,7 @@ void PolicyEnvironment::step(const float* action, const StepOutput& output) {
       before_.velocity_error + (error - before_.velocity_error) * manifest.period / kMeanTime;
   const bool is_get_up = manifest.kind == PolicyManifest::Kind::kGetUp;
   const double up = after_.torso.linear()(2, 2);
-  const bool fallen = !is_get_up && (up < std::cos(kFallenTilt) ||
+  const bool fallen = !is_get_up && (up < std::cos(manifest.fall_tilt.value_or(kFallenTilt)) ||
                                      after_.torso.translation().z() <
                                          kFallenHeight * start_->torso.translation().z());
   calc_reward_terms(*options_.model, manifest, *start_, before_, after_, input_.command,
@@ -157,7 +187,9 @@ void PolicyEnvironment::step(const float* action, const StepOutput& output) {
     return;
   }
   if (random_.uniform() < manifest.period / options_.command_time) draw_goal();
-  input_.command = ramp_command(input_.command, goal_, manifest.period);
+  if (num_steps_ >= num_recovery_steps_) {
+    input_.command = ramp_command(input_.command, goal_, manifest.period);
+  }
   observe(output);
 }
 
@@ -175,7 +207,7 @@ void PolicyEnvironment::set_targets() {
 void PolicyEnvironment::draw_goal() {
   const PolicyManifest& manifest = *options_.manifest;
   if (options_.command || is_resting_ || manifest.kind != PolicyManifest::Kind::kWalk) {
-    goal_ = input_.command;
+    goal_ = options_.command.value_or(Eigen::Vector3d::Zero());
     return;
   }
   const Eigen::Vector3d goal_before = goal_;
@@ -188,6 +220,7 @@ void PolicyEnvironment::draw_goal() {
       goal_before.x() > kFast * manifest.vx.upper ? kFastRestShare : kRestShare;
   if (kind < rest_share) {
     goal_.setZero();
+    if (options_.push > 0 && random_.uniform() < kInPlaceShare) goal_ = kStepInPlace;
   } else if (kind > 1 - kFastShare) {
     goal_ = {random_.uniform(kFast, 1) * manifest.vx.upper, 0, 0};
   } else if (kind < kRestShare + kSingleShare) {
@@ -197,12 +230,12 @@ void PolicyEnvironment::draw_goal() {
   }
 }
 
-void PolicyEnvironment::maybe_push() {
-  if (options_.push <= 0 || random_.uniform() > options_.manifest->period / kPushTime) return;
+double PolicyEnvironment::push() {
   // Uniform over the disk of the impulses.
   const double impulse = push_ * std::sqrt(random_.uniform()) * options_.model->total_mass();
   const double angle = random_.uniform(-M_PI, M_PI);
   world_->push(0, 0, {impulse * std::cos(angle), impulse * std::sin(angle), 0});
+  return angle;
 }
 
 void PolicyEnvironment::sample(MotionSample& sample) const {

@@ -11,6 +11,7 @@
 #include "policy/policy_manifest.h"
 #include "robot_model/robot_model.h"
 #include "robot_model/scene_file.h"
+#include "robot_model/target_limiter.h"
 #include "sim/disturbances.h"
 #include "sim/world.h"
 #include "tools/policy-train/reward_terms.h"
@@ -67,17 +68,24 @@ class PolicyEnvironment {
   /** @throws ConfigError, ModelError  as sim::World does. */
   PolicyEnvironment(const EnvironmentOptions& options, uint64_t seed);
 
-  /** Begins an episode: the robot at its default angles, at rest; a get-up's robot lies. */
+  /** Begins an episode: the robot at its default angles, at rest, or in its ready posture and
+   * pushed, as when nao-motion lets a policy catch it; a get-up's robot lies. */
   void reset(const StepOutput& output);
   /** One step of the policy. @param action  (manifest.num_actions()), finite: others count as 0. */
   void step(const float* action, const StepOutput& output);
 
  private:
-  void place();
+  /** @param is_ready  In the ready posture. */
+  void place(bool is_ready);
   void lay_down();
   void set_targets();
   void draw_goal();
-  void maybe_push();
+  /** @return Its direction, rad from straight ahead of the world to the left. */
+  double push();
+  /** One tick of the simulation. Sent targets change as fast as the motors turn at most. */
+  void step_tick();
+  /** Steps with the targets that were sent last. @param duration  s. */
+  void hold(double duration);
   void observe(const StepOutput& output);
   void sample(MotionSample& sample) const;
 
@@ -94,6 +102,10 @@ class PolicyEnvironment {
   Eigen::Vector3d goal_ = Eigen::Vector3d::Zero();
   std::vector<float> action_;
   sim::MotorTargets targets_;
+  TargetLimiter limiter_;
+  /** Angles that were sent last, rad, and those of this step; motor order. */
+  std::vector<double> sent_;
+  std::vector<double> position_;
   /** At the default angles; present from the end of the constructor on. */
   std::optional<MotionSample> start_;
   /** At the begin and the end of a step. */
@@ -101,6 +113,8 @@ class PolicyEnvironment {
   MotionSample after_;
   int ticks_per_step_ = 1;
   int num_steps_ = 0;
+  /** Steps of this episode in which a robot that was pushed steps in place. */
+  int num_recovery_steps_ = 0;
   int max_steps_ = 0;
 };
 

@@ -21,10 +21,6 @@ constexpr double kFallTime = 0.03;
 // one that only moves its limbs fast does not. Chosen: twice the angle at which TippingGuard calls
 // a sole flat.
 constexpr double kMinSoleTilt = 0.12;
-// Torso tilt at which a walk falls, rad. Walks that recovered from a push tilted by 0.34 rad at
-// most; of those that fell, 98 of 100 tilted by this much 150 ms or more before the impact
-// (measured: nao-trial push-course).
-constexpr double kWalkingTilt = 0.38;
 // Slack of a sum of time steps, s.
 constexpr double kRounding = 1e-9;
 
@@ -42,10 +38,10 @@ Eigen::Vector2d calc_capture_point(const RobotState& state) {
          std::sqrt(height / kGravity) * state.center_of_mass_velocity_in_odometry.head<2>();
 }
 
-bool FallMonitor::update(const RobotState& state, bool is_walking, double dt) {
+bool FallMonitor::update(const RobotState& state, bool is_walking, double dt, double walking_tilt) {
   const double tilt = calc_tilt(state.torso_in_odometry.linear()(2, 2));
   if (tilt > lying_tilt_) return true;
-  if (is_walking) return tilt > kWalkingTilt;
+  if (is_walking) return tilt > walking_tilt;
   const double sole_tilt = calc_tilt(std::max(state.left_sole_in_odometry.linear()(2, 2),
                                               state.right_sole_in_odometry.linear()(2, 2)));
   const double margin =

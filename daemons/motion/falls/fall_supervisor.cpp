@@ -56,7 +56,8 @@ FallSupervisor::Action FallSupervisor::update(const RobotState& state, const Act
 
 bool FallSupervisor::predict_fall(const RobotState& state, const Activity& activity, double dt) {
   if (has_fallen_ || was_lying_ || !activity.must_stay_upright) return false;
-  return is_above_seat(*model_, state) && monitor_.update(state, activity.is_walking, dt);
+  return is_above_seat(*model_, state) &&
+         monitor_.update(state, activity.is_walking, dt, activity.walking_tilt);
 }
 
 // A motion has ended: one that succeeded (not the fall itself) leaves a known state; one that

@@ -28,6 +28,8 @@ class FallSupervisor {
     /** The robot must stay on its feet: no motion runs that may leave them. */
     bool must_stay_upright = true;
     bool is_walking = false;
+    /** Torso tilt at which the walk falls, rad. */
+    double walking_tilt = kWalkingFallTilt;
   };
 
   /** Action that the core must take. */

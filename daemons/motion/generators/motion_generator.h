@@ -1,6 +1,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "daemons/motion/joint_targets.h"
@@ -93,6 +94,9 @@ class MotionGenerator {
 
   /** Whether the robot must stay on its feet now: falls are predicted while this is true. */
   virtual bool must_stay_upright() const { return true; }
+
+  /** Torso tilt from which on a walk does not recover, rad; nothing: kWalkingFallTilt. */
+  virtual std::optional<double> fall_tilt() const { return std::nullopt; }
 
   /** Fraction done, 0..1; NaN if the end is open. */
   virtual double progress() const { return std::numeric_limits<double>::quiet_NaN(); }

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,13 +15,14 @@
 namespace nao::motion {
 
 /** A motion by a policy: stands up, goes to the policy's default angles, lets the policy move the
- * robot, and returns to the stand. A get-up begins with the policy at once.
+ * robot, and returns to the stand. A get-up begins with the policy at once, as does push recovery.
  *
  * When the policy must not go on it returns to the stand by itself, and fails with the reason. */
 class PolicyMotion : public MotionGenerator {
  public:
   /** @param model, policy  Must outlive this; the policy has no fault.
-   * @param stand_up, end  Paths to the stand, before and after.
+   * @param stand_up, end  Paths to the stand, before and after. Without the first one the policy
+   *                       moves the robot at once: its push recovery.
    * @param command        Of a walk.
    * @param on_fault       Called when the policy must not go on. */
   PolicyMotion(const RobotModel& model, const Policy& policy,
@@ -34,6 +36,7 @@ class PolicyMotion : public MotionGenerator {
   bool adopt(const Command& command) override;
   Mode mode() const override;
   bool must_stay_upright() const override;
+  std::optional<double> fall_tilt() const override;
   Reason reason() const override { return reason_; }
   void describe(MotionState& state) const override;
   Reason note_fall() override;
@@ -47,6 +50,7 @@ class PolicyMotion : public MotionGenerator {
   bool is_policy_moving() const { return stage_ == Stage::kRunning || stage_ == Stage::kFading; }
   void approach(const MotionContext& context, const JointTargets& targets);
   void begin_policy(const JointTargets& targets);
+  void begin_recovery(const RobotState& state, const JointTargets& targets);
   void return_to_stand(const MotionContext& context, const JointTargets& targets);
   void fail(const std::string& why);
   /** @return Whether the policy still moves the robot. */
@@ -72,6 +76,8 @@ class PolicyMotion : public MotionGenerator {
   double age_ = 0;
   double time_at_rest_ = 0;
   double time_in_air_ = 0;
+  /** Since a push changed which foot swings, s. */
+  double time_since_outward_ = 0;
   /** Velocity that the policy is commanded. */
   Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();
   JointTrajectory trajectory_;

@@ -19,16 +19,20 @@ class StandingBalanceTest : public ::testing::Test {
     gains_.step_margin = 0.03;
   }
 
-  /** Whether it steps with its center of mass at a height of 1 m over the middle of soles of 0.2 by
-   * 0.3 m that head to the left, at a velocity, m/s, in their frame. */
-  bool steps_at(double ahead, double left) const {
+  /** A robot whose center of mass is at a height of 1 m over the middle of soles of 0.2 by 0.3 m
+   * that head to the left, at a velocity, m/s, in their frame. */
+  static RobotState moving(double ahead, double left) {
     RobotState state;
     state.torso_in_odometry.linear() =
         Eigen::AngleAxisd(M_PI / 2, Eigen::Vector3d::UnitZ()).toRotationMatrix();
     state.center_of_mass_in_odometry = {0, 0, 1};
     state.center_of_mass_velocity_in_odometry = {-left, ahead, 0};
     state.support_polygon_in_odometry = {{-0.15, -0.1}, {0.15, -0.1}, {0.15, 0.1}, {-0.15, 0.1}};
-    return StandingBalance(gains_, legs_).must_step(state);
+    return state;
+  }
+  /** Whether it steps then. */
+  bool steps_at(double ahead, double left) const {
+    return StandingBalance(gains_, legs_).must_step(moving(ahead, left));
   }
 
   /** Angles that a torso's pitch rate, rad/s, adds. */
@@ -88,6 +92,15 @@ TEST_F(StandingBalanceTest, StepsWhenThePointWhereItComesToRestNearsTheToesOrThe
   RobotState state;
   state.center_of_mass_velocity_in_odometry = {1, 0, 0};
   EXPECT_FALSE(StandingBalance(gains_, legs_).must_step(state));
+  EXPECT_FALSE(is_pushed_off(state, 0));
+}
+
+TEST_F(StandingBalanceTest, IsPushedOffItsSolesInAnyDirection) {
+  EXPECT_TRUE(is_pushed_off(moving(0.4, 0), 0.02));
+  EXPECT_TRUE(is_pushed_off(moving(0, -0.56), 0.02));
+  EXPECT_FALSE(is_pushed_off(moving(0, -0.5), 0.02));
+  EXPECT_FALSE(is_pushed_off(moving(0.35, 0), 0.02));
+  EXPECT_FALSE(is_pushed_off(moving(0.19, 0), -0.1));
 }
 
 }  // namespace

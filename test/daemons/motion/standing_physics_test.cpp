@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "test/daemons/motion/physics_trial.h"
+#include "test/daemons/motion/policy_robot.h"
+#include "tools/nao-trial/lying_start.h"
 
 namespace nao::trial {
 namespace {
@@ -30,13 +32,26 @@ TEST(StandingPhysics, WithstandsAPushAheadAndBack) {
 
 // Without a step a T1 withstands 0.33 N s for each kg ahead or back.
 TEST(StandingPhysics, AnswersAPushByStepsAndStandsAgain) {
+  // No policy catches it.
+  const motion::PolicyRobot robot;
   ClosedLoopOptions options = trial_options();
-  options.model = std::make_shared<const RobotModel>(
-      RobotModel::load(std::filesystem::path(NAO_TEST_DATA) / "robots" / "t1"));
+  options.model = robot.load();
   const double impulse = 0.45 * options.model->total_mass();
   for (uint64_t seed = 41; seed <= 43; ++seed) {
     EXPECT_TRUE(stands_after(impulse, 0, seed, options)) << seed;
     EXPECT_TRUE(stands_after(impulse, M_PI, seed, options)) << seed;
+  }
+}
+
+// Of its own push recovery a T1 withstands most of the first pushes.
+TEST(StandingPhysics, ARobotIsKnockedOverWhateverItWithstands) {
+  ClosedLoopOptions options = trial_options();
+  options.model = std::make_shared<const RobotModel>(
+      RobotModel::load(std::filesystem::path(NAO_TEST_DATA) / "robots" / "t1"));
+  for (uint64_t seed = 41; seed <= 44; ++seed) {
+    ClosedLoop trial(options, seed);
+    trial.run(1);
+    EXPECT_TRUE(knock_over(trial, 0)) << seed;
   }
 }
 

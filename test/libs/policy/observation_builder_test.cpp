@@ -80,6 +80,23 @@ observations:
   EXPECT_THAT(build(manifest, input, 0.5), testing::Pointwise(testing::FloatNear(1e-6F), resting));
 }
 
+TEST(ObservationBuilder, BeginsItsPhaseAnewWithALead) {
+  const PolicyManifest manifest = parse_manifest(std::string(R"(kind: walk
+network: a.onnx
+rate: 50
+phase: {frequency: 1.25, start: 0.75}
+observations: [{quantity: phase_sine}]
+)") + kJoints);
+  const std::vector<float> action(1);
+  ObservationBuilder builder(manifest);
+  builder.reset(0.5);
+  EXPECT_NEAR(builder.build(input_of_t1(), action)[0], 1, 1e-6);
+  builder.restart_phase(0);
+  // A step of 0.025 cycles later.
+  EXPECT_NEAR(builder.build(input_of_t1(), action)[0], std::sin(2 * M_PI * 0.775), 1e-6);
+  EXPECT_NEAR(builder.phase(), 0.775, 1e-9);
+}
+
 TEST(ObservationBuilder, BuildsThePhasesOfBothFeetOfMujocoPlaygroundAndHolosoma) {
   const PolicyManifest manifest = parse_manifest(std::string(R"(kind: walk
 network: a.onnx

@@ -32,10 +32,19 @@ TEST(PolicyManifest, ReadsWhatItSays) {
   EXPECT_EQ(manifest.joints[1].scale, 0.25);
   EXPECT_EQ(manifest.kp[static_cast<size_t>(knee)], 200);
   EXPECT_TRUE(std::isnan(manifest.joints[1].damping));
+  EXPECT_FALSE(manifest.fall_tilt);
+  EXPECT_FALSE(manifest.recovery_margin);
   // Joints that the file does not name stand as the robot does.
   const int hip = t1_model().find_motor("Left_Hip_Pitch");
   EXPECT_EQ(manifest.default_position[static_cast<size_t>(hip)],
             t1_model().ready_posture().position[static_cast<size_t>(hip)]);
+}
+
+TEST(PolicyManifest, ReadsWhatItRecoversFrom) {
+  const PolicyManifest manifest =
+      parse_manifest(std::string(kSmallManifest) + "fall_tilt: 0.6\nrecovery_margin: 0.02\n");
+  EXPECT_EQ(manifest.fall_tilt, 0.6);
+  EXPECT_EQ(manifest.recovery_margin, 0.02);
 }
 
 TEST(PolicyManifest, NamesFileLineAndKeyOfWhatIsWrong) {
@@ -49,6 +58,7 @@ TEST(PolicyManifest, NamesFileLineAndKeyOfWhatIsWrong) {
       {"rate: 50", "rate: 0", "rate must lie between"},
       {"rate: 50", "rat: 50", "rat is unknown"},
       {"rate: 50\n", "", "lacks \"rate\""},
+      {"rate: 50", "rate: 50\nfall_tilt: 0.9", "fall_tilt must lie between"},
       {"policy.onnx", "../policy.onnx", "must be the name of a file"},
       {"Left_Knee_Pitch", "Left_Knee", "is not a joint with a motor of the robot t1"},
       {"Right_Knee_Pitch", "Left_Knee_Pitch", "is listed twice"},

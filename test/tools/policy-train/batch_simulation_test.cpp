@@ -86,6 +86,29 @@ TEST(BatchSimulation, EndsAnEpisodeWithAFallAndBeginsTheNext) {
   EXPECT_GT(rows.final_observations[5], -0.83F);
 }
 
+// As when a policy catches a robot: its ready posture's angles, and moving.
+TEST(BatchSimulation, BeginsHalfOfTheEpisodesOfRobotsThatArePushedWithAPush) {
+  EnvironmentOptions options = options_of(kLegs);
+  options.push = 0.3;
+  options.start_spread = 0;
+  constexpr int kNumRobots = 40;
+  BatchSimulation batch(options, kNumRobots, 1, 1);
+  BatchRows rows(*options.manifest, kNumRobots);
+  batch.reset(rows.arrays());
+  const double ready = options.model->ready_posture()
+                           .position[static_cast<size_t>(options.manifest->joints[0].motor)];
+  int num_pushed = 0;
+  for (size_t i = 0; i < kNumRobots; ++i) {
+    const float* robot = &rows.observations[i * rows.observations.size() / kNumRobots];
+    const bool is_pushed = std::abs(rows.privileged[i * kNumPrivileged]) > 0.02F ||
+                           std::abs(rows.privileged[i * kNumPrivileged + 1]) > 0.02F;
+    EXPECT_NEAR(robot[9], is_pushed ? ready + 0.3 : 0, 0.07) << i;
+    num_pushed += is_pushed ? 1 : 0;
+  }
+  EXPECT_GT(num_pushed, kNumRobots / 4);
+  EXPECT_LT(num_pushed, kNumRobots * 3 / 4);
+}
+
 TEST(BatchSimulation, HasTheRobotsOfASeed) {
   const EnvironmentOptions options = disturbed_options();
   BatchSimulation batch(options, 2, 1, 1);

@@ -86,6 +86,10 @@ TEST(FallMonitor, AWalkFallsByItsTiltAlone) {
   for (int i = 0; i < 100; ++i) EXPECT_FALSE(monitor.update(state, true, 0.01));
   tilt(state, 0.4, 0.3);
   EXPECT_TRUE(monitor.update(state, true, 0.01));
+  // One that recovers from more.
+  EXPECT_FALSE(monitor.update(state, true, 0.01, 0.6));
+  tilt(state, 0.61, 0.3);
+  EXPECT_TRUE(monitor.update(state, true, 0.01, 0.6));
 }
 
 TEST(FallMonitor, ARobotThatLiesFalls) {
