@@ -24,10 +24,14 @@ constexpr double kFade = 0.3;
 constexpr double kSameHipHeight = 0.02;
 
 /** Whether a kick can begin in the pose that these targets make. */
-bool is_kick_stance(const RobotModel& model, const std::vector<double>& position) {
-  const double height = calc_hip_height(model, model.ready_posture().position);
-  return is_walking_stance(model, position) &&
-         std::abs(calc_hip_height(model, position) - height) < kSameHipHeight * height;
+bool is_kick_stance(const RobotModel& model, const LegKinematics& legs,
+                    const std::vector<double>& position) {
+  if (!is_walking_stance(model, position)) return false;
+  Kinematics kinematics(model);
+  kinematics.update(model.ready_posture().position);
+  const double ready = calc_hip_height(kinematics, legs);
+  kinematics.update(position);
+  return std::abs(calc_hip_height(kinematics, legs) - ready) < kSameHipHeight * ready;
 }
 
 }  // namespace
@@ -67,7 +71,7 @@ KickMotion::KickMotion(const RobotModel& model, const Kick& kick, const Gait& ga
 
 void KickMotion::start(const MotionContext& context, const JointTargets& targets) {
   // From any other posture the robot stands up first, and the kick begins from there.
-  is_standing_up_ = !is_kick_stance(context.model, targets.position);
+  is_standing_up_ = !is_kick_stance(context.model, pose_.legs(), targets.position);
   if (is_standing_up_) {
     stand_up_->start(context, targets);
   } else {

@@ -53,13 +53,18 @@ bool is_near_default(const PolicyManifest& manifest, const std::vector<double>& 
   });
 }
 
+/** The robot's left, in odometry. */
+Eigen::Vector2d left_of(const RobotState& state) {
+  const double heading = heading_of(state.torso_in_odometry.linear());
+  return {-std::sin(heading), std::cos(heading)};
+}
+
 /** Lead of the phase at which the foot swings that a push bears on: steps of the other one would
  * not bring the robot to rest. Nothing: no push to the side. */
 std::optional<double> find_outward_lead(const RobotState& state) {
   const auto& corners = state.support_polygon_in_odometry;
   if (corners.empty()) return std::nullopt;
-  const double heading = heading_of(state.torso_in_odometry.linear());
-  const Eigen::Vector2d left(-std::sin(heading), std::cos(heading));
+  const Eigen::Vector2d left = left_of(state);
   const double capture = left.dot(calc_capture_point(state));
   const auto [rightmost, leftmost] = std::ranges::minmax(
       corners, {}, [&](const Eigen::Vector2d& corner) { return left.dot(corner); });
@@ -121,9 +126,7 @@ void PolicyMotion::begin_recovery(const RobotState& state, const JointTargets& t
   begin_policy(targets);
   // The robot has no time for a change from its targets to the policy's.
   time_ = kBlendTime;
-  const Eigen::AngleAxisd heading(heading_of(state.torso_in_odometry.linear()),
-                                  Eigen::Vector3d::UnitZ());
-  const bool is_left = (heading.inverse() * state.center_of_mass_velocity_in_odometry).y() > 0;
+  const bool is_left = left_of(state).dot(state.center_of_mass_velocity_in_odometry.head<2>()) > 0;
   runner_.start(is_left ? 0 : kRightLead);
 }
 

@@ -72,10 +72,7 @@ std::optional<Reason> find_walk_obstacle(const LegKinematics& legs, const RobotS
   return std::nullopt;
 }
 
-double calc_hip_height(const RobotModel& model, const std::vector<double>& position) {
-  Kinematics kinematics(model);
-  kinematics.update(position);
-  const LegKinematics legs(model);
+double calc_hip_height(const Kinematics& kinematics, const LegKinematics& legs) {
   const Eigen::Vector3d hips = 0.5 * (legs.hip(Leg::kLeft) + legs.hip(Leg::kRight));
   return (kinematics.left_sole().inverse() * hips).z();
 }
@@ -85,7 +82,7 @@ bool is_walking_stance(const RobotModel& model, const std::vector<double>& posit
   kinematics.update(position);
   // The right sole in the frame of the left one: level, at one height, within the stance's bounds.
   const Eigen::Isometry3d right = kinematics.left_sole().inverse() * kinematics.right_sole();
-  const double height = calc_hip_height(model, position);
+  const double height = calc_hip_height(kinematics, LegKinematics(model));
   const WalkingStance& bounds = model.references().walking_stance;
   const double apart = -right.translation().y();
   const double turn = heading_of(right.linear());

@@ -26,9 +26,8 @@ std::optional<Reason> find_orientation_doubt(const RobotState& state);
 std::optional<Reason> find_walk_obstacle(const LegKinematics& legs, const RobotState& state,
                                          const std::vector<double>& stiffness);
 
-/** Height of the middle between the hips over the left sole, m. @param position  Of all motors,
- * rad. */
-double calc_hip_height(const RobotModel& model, const std::vector<double>& position);
+/** Height of the middle between the hips over the left sole, m. */
+double calc_hip_height(const Kinematics& kinematics, const LegKinematics& legs);
 
 /** Whether the walk can begin in the pose that these targets make: both soles flat on one level,
  * side by side, below bent knees. */

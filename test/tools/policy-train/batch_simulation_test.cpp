@@ -87,7 +87,7 @@ TEST(BatchSimulation, EndsAnEpisodeWithAFallAndBeginsTheNext) {
 }
 
 // As when a policy catches a robot: its ready posture's angles, and moving.
-TEST(BatchSimulation, BeginsHalfOfTheEpisodesOfRobotsThatArePushedWithAPush) {
+TEST(BatchSimulation, BeginsManyEpisodesOfRobotsThatArePushedWithAPush) {
   EnvironmentOptions options = options_of(kLegs);
   options.push = 0.3;
   options.start_spread = 0;
