@@ -13,8 +13,9 @@ import {kWebDir} from "./set_up.mjs";
 import {pause, until} from "./stack.mjs";
 
 const kPictures = process.env.NAO_PICTURES;
-/** The view glides to its place, ms. */
-const kGlideMs = 700;
+/** The view glides by 0.1 s a frame at the most: fewer would be slow. It takes so long, ms. */
+const kFramesPerSecond = 10;
+const kGlideMs = 900;
 const kDesk = {isMobile: false, hasTouch: false};
 const kDark = {colorScheme: "dark"};
 const kLight = {colorScheme: "light"};
@@ -74,7 +75,8 @@ for (const {name, size: [width, height], options, ...page} of kPasses.filter((pa
   test(`every screen is laid out and accessible: ${name}`, async () => {
     const faults = [];
     const open = async (url, person) => {
-      const phone = await Phone.open(browser, "about:blank", {width, height}, {...options, name: person});
+      const phone = await Phone.open(browser, "about:blank", {width, height},
+                                     {...options, name: person, framesPerSecond: kFramesPerSecond});
       await phone.context.addInitScript(setPage, page);
       await phone.page.goto(url);
       return phone;
@@ -82,7 +84,9 @@ for (const {name, size: [width, height], options, ...page} of kPasses.filter((pa
     const look = async (phone, state) => {
       await pause(kGlideMs);
       if (kPictures) await phone.page.screenshot({path: join(kPictures, `${name}-${state}.png`)});
-      for (const fault of [...await faultsOfLayout(phone), ...await violations(phone)]) faults.push(`${state}: ${fault}`);
+      // Wider letters change the layout only.
+      const all = [...await faultsOfLayout(phone), ...(page.spacing ? [] : await violations(phone))];
+      for (const fault of all) faults.push(`${state}: ${fault}`);
     };
     const click = (phone, selector) => phone.page.locator(selector).click();
 

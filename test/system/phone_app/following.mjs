@@ -1,6 +1,6 @@
 // How closely the robot on the phone follows the simulated one: what the page showed of a joint, frame by frame,
 // against the recorded truth at the robot time of the states that it knew.
-import {pause} from "./stack.mjs";
+import {pause, until} from "./stack.mjs";
 
 /** In this time a frame has come to within 1 % of a state, ms: five times the time constant of the app's PoseMirror.
  * What the page shows is made of states that were the newest within it. */
@@ -8,8 +8,9 @@ const kInterpolationMs = 60;
 /** From the joint to the state that reports it, us: two ticks. */
 const kStateDelay = 20_000;
 
-/** How long the page is watched after it is done, ms. */
+/** How long the page is watched after it is done, ms; and how many frames before and after it, however slow the page is. */
 const kAfterwardsMs = 300;
+const kLeastFrames = 4;
 
 /** In the page: notes what each frame shows; nothing while there is no state, as after a link that was lost. */
 export function sampleJoint(joint) {
@@ -31,8 +32,14 @@ export async function watchJoint(stack, phone, joint, act) {
   let frames = [];
   const recorded = await stack.record("WORLD_TRUTH", async () => {
     await phone.page.evaluate(sampleJoint, joint);
+    const seesMore = async () => {
+      const least = await phone.page.evaluate("window.shownSamples.length") + kLeastFrames;
+      await until("the page has drawn more", () => phone.page.evaluate(`window.shownSamples.length >= ${least}`));
+    };
+    await seesMore();
     await act();
     await pause(kAfterwardsMs);
+    await seesMore();
     frames = await phone.page.evaluate(() => {
       const samples = window.shownSamples;
       window.shownSamples = null;

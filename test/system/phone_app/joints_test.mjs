@@ -16,7 +16,7 @@ const kMoved = 3 * kDegree;
 const kShownTolerance = 0.003;
 const kDeadlineMs = 20_000;
 
-const {stack, phone} = setUp({prepare: (phone) => phone.tap(".joints-button")});
+const {stack, phone} = setUp({framesPerSecond: 0, prepare: (phone) => phone.tap(".joints-button")});
 
 /** Taps the ball of a group once the view has come to rest. */
 async function choose(group) {

@@ -28,6 +28,16 @@ function remember(known) {
   }
 }
 
+/** How many frames a second are enough for a test that does not measure them: here a processor draws them. */
+export const kFewFramesPerSecond = 5;
+
+/** In the page: it draws no more frames a second. All who wait draw in one frame. */
+function drawSeldom(framesPerSecond) {
+  const request = window.requestAnimationFrame.bind(window);
+  const period = 1000 / framesPerSecond;
+  window.requestAnimationFrame = (callback) => setTimeout(() => request(callback), period - performance.now() % period);
+}
+
 export class Phone {
   #isTouched = false;
   /** Errors of the page, and errors that it wrote to the console. */
@@ -40,12 +50,15 @@ export class Phone {
   }
 
   /** @param size  CSS pixels: {width, height}.
-   * @param options  of Playwright's context; isNewcomer: the person has not walked a robot yet; name: what others see. */
-  async open(browser, url, size = {width: 412, height: 915}, {isNewcomer = false, name = "", ...options} = {}) {
+   * @param options  of Playwright's context; isNewcomer: the person has not walked a robot yet; name: what others see;
+   * framesPerSecond: how many the page draws at most, 0: as many as it can. */
+  async open(browser, url, size = {width: 412, height: 915},
+             {isNewcomer = false, name = "", framesPerSecond = 0, ...options} = {}) {
     this.context = await browser.newContext({
       viewport: size, deviceScaleFactor: 1, isMobile: true, hasTouch: true, locale: "en-US", ...options});
     if (!isNewcomer) await this.context.addInitScript(remember, {hasWalked: true});
     if (name) await this.context.addInitScript(remember, {clientName: name});
+    if (framesPerSecond > 0) await this.context.addInitScript(drawSeldom, framesPerSecond);
     this.page = await this.context.newPage();
     this.page.on("pageerror", (error) => this.errors.push(error.message));
     this.page.on("console", (message) => {
