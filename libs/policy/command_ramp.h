@@ -10,9 +10,9 @@ inline const Eigen::Vector3d kPolicyAcceleration(1, 1, 2);
 
 /** Velocity at which a policy steps in place, m/s: its phase may rest at 0. */
 inline const Eigen::Vector3d kStepInPlace(1e-6, 0, 0);
-/** Time for which a robot that was pushed steps in place, s, and the lead of its phase, cycles,
- * when it is pushed to the right: the foot on that side swings first. Chosen: two gait cycles. */
-inline constexpr double kRecoveryTime = 1.4;
+/** For so many gait cycles a robot that was pushed steps in place (chosen); and the lead of its
+ * phase, cycles, when it is pushed to the right: the foot on that side swings first. */
+inline constexpr double kRecoveryCycles = 2;
 inline constexpr double kRightLead = 0.5;
 
 /** @return The commanded velocity, m/s and rad/s, after a time dt, s, on its way to a goal. */

@@ -104,6 +104,9 @@ class Reader {
     }
     if (root.has("recovery_margin")) {
       if (!walks) root.at("recovery_margin").fail("is for walks only");
+      if (manifest_.phase_frequency == 0) {
+        root.at("recovery_margin").fail("needs \"phase\" with a frequency");
+      }
       manifest_.recovery_margin = read_number(root, "recovery_margin", -1, 1, 0);
     }
   }

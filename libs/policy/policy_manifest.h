@@ -106,8 +106,8 @@ struct PolicyManifest {
   double duration = 0;
   /** Tilt of the torso from which on it does not recover, rad; nothing: as of other walks. */
   std::optional<double> fall_tilt;
-  /** The walk is the push recovery of a robot that stands, whose capture point is so far outside of
-   * the soles, m; nothing: it is not. */
+  /** The walk, which has a phase, is the push recovery of a robot that stands, whose capture point
+   * is so far outside of the soles, m; nothing: it is not. */
   std::optional<double> recovery_margin;
 
   /** Numbers of an observation with all its steps. */

@@ -88,7 +88,10 @@ void PolicyEnvironment::reset(const StepOutput& output) {
   std::fill(action_.begin(), action_.end(), 0.0F);
   set_targets();
   const bool is_get_up = options_.manifest->kind == PolicyManifest::Kind::kGetUp;
-  const bool is_pushed = options_.push > 0 && !is_get_up && random_.uniform() < kPushedShare;
+  const PolicyManifest& manifest = *options_.manifest;
+  // Only what has a phase can be push recovery.
+  const bool is_pushed = options_.push > 0 && !is_get_up && manifest.phase_frequency > 0 &&
+                         random_.uniform() < kPushedShare;
   if (is_get_up) {
     lay_down();
   } else {
@@ -102,7 +105,9 @@ void PolicyEnvironment::reset(const StepOutput& output) {
   }
   num_steps_ = 0;
   num_recovery_steps_ =
-      is_pushed ? static_cast<int>(std::lround(kRecoveryTime / options_.manifest->period)) : 0;
+      is_pushed ? static_cast<int>(
+                      std::lround(kRecoveryCycles / (manifest.phase_frequency * manifest.period)))
+                : 0;
   const Eigen::Vector3d zero = Eigen::Vector3d::Zero();
   input_.command = options_.command.value_or(is_pushed ? kStepInPlace : zero);
   is_resting_ = options_.rest_share > 0 && random_.uniform() < options_.rest_share;

@@ -76,8 +76,8 @@ class PolicyMotion : public MotionGenerator {
   double age_ = 0;
   double time_at_rest_ = 0;
   double time_in_air_ = 0;
-  /** Since a push changed which foot swings, s. */
-  double time_since_outward_ = 0;
+  /** Since a push changed which foot swings, gait cycles. */
+  double cycles_since_outward_ = 0;
   /** Velocity that the policy is commanded. */
   Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();
   JointTrajectory trajectory_;

@@ -151,8 +151,8 @@ TEST_F(PolicyMotionTest, ARobotFallsAtTheTiltOfItsPolicy) {
 }
 
 TEST_F(PolicyMotionTest, APolicyIsThePushRecoveryOfARobotThatStands) {
-  robot_.add("hold", std::string(kWalk) + "recovery_margin: 0.02\n", kKnees, 5,
-             {OnnxFile::constant(5, {0, 0})});
+  robot_.add("hold", std::string(kWalk) + "phase: {frequency: 1.5}\nrecovery_margin: 0.02\n",
+             kKnees, 5, {OnnxFile::constant(5, {0, 0})});
   begin();
   const double weight = loop_->model().total_mass();
   // The capture point stays on the soles.

@@ -42,7 +42,8 @@ TEST(PolicyManifest, ReadsWhatItSays) {
 
 TEST(PolicyManifest, ReadsWhatItRecoversFrom) {
   const PolicyManifest manifest =
-      parse_manifest(std::string(kSmallManifest) + "fall_tilt: 0.6\nrecovery_margin: 0.02\n");
+      parse_manifest(std::string(kSmallManifest) +
+                     "phase: {frequency: 1.5}\nfall_tilt: 0.6\nrecovery_margin: 0.02\n");
   EXPECT_EQ(manifest.fall_tilt, 0.6);
   EXPECT_EQ(manifest.recovery_margin, 0.02);
 }
@@ -59,6 +60,7 @@ TEST(PolicyManifest, NamesFileLineAndKeyOfWhatIsWrong) {
       {"rate: 50", "rat: 50", "rat is unknown"},
       {"rate: 50\n", "", "lacks \"rate\""},
       {"rate: 50", "rate: 50\nfall_tilt: 0.9", "fall_tilt must lie between"},
+      {"rate: 50", "rate: 50\nrecovery_margin: 0", "recovery_margin needs \"phase\""},
       {"policy.onnx", "../policy.onnx", "must be the name of a file"},
       {"Left_Knee_Pitch", "Left_Knee", "is not a joint with a motor of the robot t1"},
       {"Right_Knee_Pitch", "Left_Knee_Pitch", "is listed twice"},
