@@ -1,8 +1,7 @@
 // What the robot sees and does by itself, on the page: with the fake gateway, which sees a ball.
 import assert from "node:assert/strict";
-import {spawn} from "node:child_process";
 import {after, before, test} from "node:test";
-import {join} from "node:path";
+import {startFake} from "./fake.mjs";
 import {openBrowser, Phone} from "./phone.mjs";
 import {kWebDir} from "./set_up.mjs";
 import {until} from "./stack.mjs";
@@ -10,25 +9,20 @@ import {until} from "./stack.mjs";
 // play_command_t's BEHAVIOR_*.
 const kGoToBall = 1;
 const kScore = 4;
-const kDataDir = process.env.NAO_DATA_DIR ?? join(process.env.NAO_BIN_DIR ?? "", "../share/nao-remote");
 
 let fake;
 let browser;
 const phone = new Phone();
 
 before(async () => {
-  fake = spawn("node", ["node_modules/.bin/vite-node", "test_support/serve_fake.ts", kDataDir],
-               {cwd: kWebDir, env: {...process.env, NAO_PLAYS: "1"}, stdio: ["ignore", "pipe", "inherit"]});
-  let said = "";
-  fake.stdout.on("data", (text) => said += text);
-  const url = await until("the fake gateway listens", () => /http:\S+/.exec(said)?.[0]);
+  fake = await startFake({NAO_PLAYS: "1"});
   browser = await openBrowser(kWebDir);
-  await phone.open(browser, url);
+  await phone.open(browser, fake.url);
   await phone.sees("controller");
 });
 after(async () => {
   await browser?.close();
-  fake?.kill();
+  fake?.end();
 });
 
 const behavior = () => phone.look("state.playState.behavior");
