@@ -87,8 +87,8 @@ void PolicyEnvironment::reset(const StepOutput& output) {
   world_->reset();
   std::fill(action_.begin(), action_.end(), 0.0F);
   set_targets();
-  const bool is_get_up = options_.manifest->kind == PolicyManifest::Kind::kGetUp;
   const PolicyManifest& manifest = *options_.manifest;
+  const bool is_get_up = manifest.kind == PolicyManifest::Kind::kGetUp;
   // Only what has a phase can be push recovery.
   const bool is_pushed = options_.push > 0 && !is_get_up && manifest.phase_frequency > 0 &&
                          random_.uniform() < kPushedShare;
@@ -98,16 +98,15 @@ void PolicyEnvironment::reset(const StepOutput& output) {
     place(is_pushed);
   }
   builder_.reset();
+  num_steps_ = 0;
+  num_recovery_steps_ = 0;
   if (is_pushed) {
     // As PolicyMotion begins push recovery.
     builder_.reset(push() > 0 ? 0 : kRightLead);
     hold(random_.uniform(0, kCatchTime));
+    const double steps_per_cycle = 1 / (manifest.phase_frequency * manifest.period);
+    num_recovery_steps_ = static_cast<int>(std::lround(kRecoveryCycles * steps_per_cycle));
   }
-  num_steps_ = 0;
-  num_recovery_steps_ =
-      is_pushed ? static_cast<int>(
-                      std::lround(kRecoveryCycles / (manifest.phase_frequency * manifest.period)))
-                : 0;
   const Eigen::Vector3d zero = Eigen::Vector3d::Zero();
   input_.command = options_.command.value_or(is_pushed ? kStepInPlace : zero);
   is_resting_ = options_.rest_share > 0 && random_.uniform() < options_.rest_share;
