@@ -178,10 +178,17 @@ void MotionCore::handle_falls(double dt) {
 }
 
 void MotionCore::handle_push() {
-  if (!has_first_motion_ || !arbiter_.is_idle() || falls_.has_fallen() || is_relaxed()) return;
+  if (!has_first_motion_ || falls_.has_fallen() || is_relaxed()) return;
   const RobotState& state = estimator_.state();
+  if (const Assignment* running = arbiter_.running()) {
+    const auto walk = running->generator->gait_command();
+    const Eigen::Vector3d& velocity = motion_state().walk_velocity;
+    auto steps = walk ? factory_.make_walk_recovery(state, velocity, *walk) : nullptr;
+    if (steps) arbiter_.hand_over(std::move(steps), context(0), targets_);
+  }
+  if (!arbiter_.is_idle()) return;
   const bool must_step = standing_ && standing_->must_step(state);
-  if (!must_step && factory_.find_recovery_policy(state) == nullptr) return;
+  if (!must_step && !factory_.must_policy_catch(state)) return;
   auto steps = factory_.make_push_recovery(context(0), targets_);
   if (steps == nullptr) return;
   arbiter_.start({std::move(steps), std::nullopt, "push-recovery"}, context(0), targets_);

@@ -14,6 +14,7 @@
 #include "daemons/motion/generators/sequence_motion.h"
 #include "daemons/motion/generators/taught_motion.h"
 #include "daemons/motion/generators/walk_motion.h"
+#include "daemons/motion/push_recovery.h"
 #include "daemons/motion/standing_rates.h"
 #include "daemons/motion/transitions/body_state.h"
 
@@ -70,6 +71,10 @@ MotionFactory::MotionFactory(const RobotModel& model, const MotionOptions& optio
   // A robot without gait, kick or scripts is controlled without these; its commands are refused.
   if (!gait_ && std::filesystem::exists(folder / kGaitFile)) gait_ = Gait::load(folder / kGaitFile);
   policies_ = load_policies(model);
+  const auto recovery = std::ranges::find_if(policies_, [](const Policy& policy) {
+    return policy.fault.empty() && policy.manifest->recovery_margin;
+  });
+  if (recovery != policies_.end()) recovery_ = &*recovery;
   if (gait_ || !policies_.empty()) legs_.emplace(model);
   if (!options.walk_policy.empty())
     walk_policy_ = &find_walk_policy(policies_, options.walk_policy);
@@ -168,19 +173,25 @@ std::unique_ptr<MotionGenerator> MotionFactory::make_push_recovery(const MotionC
                                                                    const JointTargets& targets) {
   const Situation situation{context, targets};
   if (find_leg_obstacle(situation) || !is_walking_stance(*model_, targets.position)) return nullptr;
-  if (const Policy* policy = find_recovery_policy(context.state)) {
-    return std::make_unique<PolicyMotion>(*model_, *policy, nullptr, make_stand_path(),
-                                          WalkCommand{}, [] {});
-  }
+  if (must_policy_catch(context.state)) return make_policy_recovery(WalkCommand{});
   return std::make_unique<WalkMotion>(*model_, *gait_, make_stand_path(), std::nullopt);
 }
 
-const Policy* MotionFactory::find_recovery_policy(const RobotState& state) const {
-  for (const Policy& policy : policies_) {
-    const auto margin = policy.manifest ? policy.manifest->recovery_margin : std::nullopt;
-    if (margin && policy.fault.empty() && is_pushed_off(state, *margin)) return &policy;
-  }
-  return nullptr;
+std::unique_ptr<MotionGenerator> MotionFactory::make_walk_recovery(const RobotState& state,
+                                                                   const Eigen::Vector3d& velocity,
+                                                                   const WalkCommand& walk) {
+  if (recovery_ == nullptr || !is_walk_pushed(state, velocity)) return nullptr;
+  return make_policy_recovery(walk);
+}
+
+std::unique_ptr<MotionGenerator> MotionFactory::make_policy_recovery(
+    const WalkCommand& walk) const {
+  return std::make_unique<PolicyMotion>(*model_, *recovery_, nullptr, make_stand_path(), walk,
+                                        [] {});
+}
+
+bool MotionFactory::must_policy_catch(const RobotState& state) const {
+  return recovery_ != nullptr && is_pushed_off(state, *recovery_->manifest->recovery_margin);
 }
 
 std::optional<StandingBalance> MotionFactory::make_standing_balance() const {

@@ -67,8 +67,13 @@ class MotionFactory {
   std::unique_ptr<MotionGenerator> make_push_recovery(const MotionContext& context,
                                                       const JointTargets& targets);
 
-  /** The policy that is the robot's push recovery now; nullptr: none, or a push that needs none. */
-  const Policy* find_recovery_policy(const RobotState& state) const;
+  /** A policy that goes on with a walk by the gait whose next step would not catch the robot;
+   * nullptr: none, or no such push. @param velocity  Of the walk, see is_walk_pushed(). */
+  std::unique_ptr<MotionGenerator> make_walk_recovery(const RobotState& state,
+                                                      const Eigen::Vector3d& velocity,
+                                                      const WalkCommand& walk);
+  /** Whether a policy must catch a robot that stands. */
+  bool must_policy_catch(const RobotState& state) const;
 
   /** Balance of a standing robot with a gait; nothing without. */
   std::optional<StandingBalance> make_standing_balance() const;
@@ -104,6 +109,8 @@ class MotionFactory {
   /** A motion by a policy. @param command  Of a walk. */
   std::unique_ptr<MotionGenerator> make_policy_motion(const Policy& policy,
                                                       const WalkCommand& command);
+  /** Push recovery by the policy, then a walk. */
+  std::unique_ptr<MotionGenerator> make_policy_recovery(const WalkCommand& walk) const;
   MotionPlan plan_kick(const ActionCommand& action, const Situation& situation, bool is_left) const;
   MotionPlan plan_script(const ActionScript& script, const Situation& situation) const;
   MotionPlan plan_taught(const std::shared_ptr<const ActionScript>& script,
@@ -138,6 +145,8 @@ class MotionFactory {
   std::vector<Policy> policies_;
   /** The one that walks; nullptr: the gait. */
   const Policy* walk_policy_ = nullptr;
+  /** Push recovery; nullptr: the gait, if there is one. */
+  const Policy* recovery_ = nullptr;
   std::map<std::string, ActionPlanner> actions_;
   std::map<std::string, std::shared_ptr<const ActionScript>> taught_;
 };

@@ -4,27 +4,10 @@
 #include <cmath>
 
 #include "daemons/motion/falls/fall_monitor.h"
+#include "daemons/motion/push_recovery.h"
 #include "kinematics/pose2.h"
-#include "kinematics/support_polygon.h"
 
 namespace nao::motion {
-namespace {
-
-// Velocity of the center of mass below which no push makes a robot step, m/s. Chosen: half of the
-// least impulse for each kg that throws over a robot which does not step (nao-trial push-course).
-constexpr double kPushVelocity = 0.2;
-
-bool is_pushed(const RobotState& state) {
-  return state.center_of_mass_velocity_in_odometry.head<2>().norm() >= kPushVelocity;
-}
-
-}  // namespace
-
-// A robot that is lifted has no support polygon: its margin is NaN.
-bool is_pushed_off(const RobotState& state, double margin) {
-  return is_pushed(state) &&
-         margin_in_polygon(state.support_polygon_in_odometry, calc_capture_point(state)) < -margin;
-}
 
 bool StandingBalance::must_step(const RobotState& state) const {
   if (!is_pushed(state)) return false;

@@ -8,10 +8,6 @@
 
 namespace nao::motion {
 
-/** Whether a robot on its feet was pushed so that its capture point is farther outside of its soles
- * than a margin, m. */
-bool is_pushed_off(const RobotState& state, double margin);
-
 /** Keeps a robot that is pushed while it stands on its feet.
  *
  * Ankles and hips turn with the torso's angular velocity: the ankles move the center of pressure to

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -30,6 +31,34 @@ constexpr double kBetweenTimes = 0.1;
 constexpr double kBefore = 0.5;  // s before the push, or the walk
 constexpr double kWalk = 3;      // s before the first of the times
 constexpr double kWatch = 4;     // s after the push
+// Pushes in a row: their number, and the times between two of them, s. Chosen: from before the
+// robot has come to rest until well after it stands again.
+constexpr int kNumPushes = 10;
+constexpr double kLeastPause = 1;
+constexpr double kGreatestPause = 5;
+
+/** Bisection. @return The greatest impulse withstood, N s/kg. */
+double find_greatest(const std::function<bool(double impulse)>& withstands) {
+  double withstood = 0;
+  double lost = kGreatest;
+  for (int i = 0; i < kNumHalvings; ++i) {
+    const double impulse = (withstood + lost) / 2;
+    (withstands(impulse) ? withstood : lost) = impulse;
+  }
+  return withstood;
+}
+
+/** @param direction  rad, to the left of straight ahead. @param impulse  N s/kg. */
+void push(ClosedLoop& trial, double direction, double impulse) {
+  const double heading = Pose2::from(trial.torso_in_world()).heading + direction;
+  const double size = impulse * trial.model().total_mass();
+  trial.world().push(0, 0, {size * std::cos(heading), size * std::sin(heading), 0});
+}
+
+bool is_standing(const ClosedLoop& trial) {
+  return trial.torso_tilt() < 0.3 &&
+         trial.torso_height() > 0.875 * trial.model().references().heights.standing;
+}
 
 class PushCourse {
  public:
@@ -41,13 +70,7 @@ class PushCourse {
   /** Greatest impulse withstood at every time, N s/kg. @param direction  rad, from straight ahead.
    * @param result  Takes the times of warning of the falls. */
   double find_boundary(double direction, RunResult& result) const {
-    double withstood = 0;
-    double lost = kGreatest;
-    for (int i = 0; i < kNumHalvings; ++i) {
-      const double impulse = (withstood + lost) / 2;
-      (withstands(direction, impulse, result) ? withstood : lost) = impulse;
-    }
-    return withstood;
+    return find_greatest([&](double impulse) { return withstands(direction, impulse, result); });
   }
 
  private:
@@ -66,20 +89,41 @@ class PushCourse {
       trial.hold_walk(options_.velocity);
       trial.run(kWalk + time);
     }
-    const double heading = Pose2::from(trial.torso_in_world()).heading + direction;
-    const double size = impulse * trial.model().total_mass();
-    trial.world().push(0, 0, {size * std::cos(heading), size * std::sin(heading), 0});
+    push(trial, direction, impulse);
     FallWarning fall;
     trial.on_tick([&] { fall.look(trial); });
     trial.run(kWatch);
     if (fall.warning()) result.metrics.emplace_back("warning_ms", *fall.warning() * 1e3);
-    return !fall.has_touched() && trial.torso_tilt() < 0.3 &&
-           trial.torso_height() > 0.875 * trial.model().references().heights.standing;
+    return !fall.has_touched() && is_standing(trial);
   }
 
   ScenarioOptions options_;
   uint64_t seed_;
 };
+
+/** Whether a robot that stands withstands pushes of one size from anywhere, in a row. */
+bool withstands_pushes(const ScenarioOptions& options, uint64_t seed, double impulse) {
+  ClosedLoop trial(options.trial, seed);
+  trial.run(kBefore);
+  for (int i = 0; i < kNumPushes; ++i) {
+    push(trial, trial.random(-M_PI, M_PI), impulse);
+    trial.run(trial.random(kLeastPause, kGreatestPause));
+    if (!is_standing(trial)) return false;
+  }
+  trial.run(kWatch);
+  return is_standing(trial);
+}
+
+std::vector<RunResult> run_pushes(ScenarioOptions options, uint64_t seed) {
+  options.trial.motion.gets_up = false;
+  const double withstood =
+      find_greatest([&](double impulse) { return withstands_pushes(options, seed, impulse); });
+  RunResult result;
+  result.metrics.emplace_back("withstood_Ns_per_kg", withstood);
+  result.is_success = withstood >= kAskedOfMass;
+  if (!result.is_success) result.failure = "fell below the required impulse";
+  return {result};
+}
 
 std::string boundary_name(int direction, int num_directions) {
   return fmt::format("withstood_{:03}_Ns_per_kg", direction * 360 / num_directions);
@@ -171,6 +215,13 @@ Scenario push_course_scenario() {
           run_push_course,
           "empty",
           plot_push_course};
+}
+
+Scenario pushes_scenario() {
+  return {"pushes",
+          "Withstand ten pushes at the torso in a row, from random directions",
+          {{"withstood_Ns_per_kg", "N s/kg"}},
+          run_pushes};
 }
 
 }  // namespace nao::trial

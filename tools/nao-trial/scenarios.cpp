@@ -14,6 +14,7 @@ std::vector<Scenario> scenarios() {
           block_scenario(),
           joints_scenario(),
           push_course_scenario(),
+          pushes_scenario(),
           get_up_scenario(),
           commands_scenario(),
           alarms_scenario(),

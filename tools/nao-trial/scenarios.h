@@ -33,6 +33,9 @@ Scenario joints_scenario();
  * impulse that the robot withstands standing or, if a velocity is commanded, walking, at the time
  * that is worst for it. */
 Scenario push_course_scenario();
+/** Pushes the torso ten times, from random directions, 1 to 5 s apart: the greatest impulse that
+ * the robot withstands each time. */
+Scenario pushes_scenario();
 /** Gets up after a push, or from a random lying pose. */
 Scenario get_up_scenario();
 /** Sends random commands in every mode, pushes the robot over, and restarts the motion core. */

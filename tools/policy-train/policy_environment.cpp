@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "daemons/motion/push_recovery.h"
+#include "kinematics/support_polygon.h"
 #include "policy/command_ramp.h"
 #include "sim/disturbance_draw.h"
 #include "sim/lying_start.h"
@@ -60,7 +62,8 @@ PolicyEnvironment::PolicyEnvironment(const EnvironmentOptions& options, uint64_t
       world_(std::make_unique<sim::World>(options.scene, world_options(options, seed))),
       builder_(*options.manifest),
       action_(options.manifest->joints.size()),
-      limiter_(*options.model) {
+      limiter_(*options.model),
+      kinematics_(*options.model) {
   sim::RobotOptions robot;
   draw_robot(*options.disturbances, seed, 0, *options.model, world_->options(), robot);
   world_->add_robot(options.model, robot);
@@ -99,21 +102,66 @@ void PolicyEnvironment::reset(const StepOutput& output) {
   }
   builder_.reset();
   num_steps_ = 0;
-  num_recovery_steps_ = 0;
+  recovery_end_ = 0;
+  cycles_since_outward_ = 0;
+  input_.command = options_.command.value_or(Eigen::Vector3d::Zero());
   if (is_pushed) {
-    // As PolicyMotion begins push recovery.
-    builder_.reset(push() > 0 ? 0 : kRightLead);
+    push();
     hold(random_.uniform(0, kCatchTime));
-    const double steps_per_cycle = 1 / (manifest.phase_frequency * manifest.period);
-    num_recovery_steps_ = static_cast<int>(std::lround(kRecoveryCycles * steps_per_cycle));
   }
-  const Eigen::Vector3d zero = Eigen::Vector3d::Zero();
-  input_.command = options_.command.value_or(is_pushed ? kStepInPlace : zero);
   is_resting_ = options_.rest_share > 0 && random_.uniform() < options_.rest_share;
   draw_goal();
   sample(before_);
   before_.velocity_error.setZero();
+  find_state();
+  if (is_pushed) begin_recovery();
   observe(output);
+}
+
+void PolicyEnvironment::begin_recovery() {
+  const PolicyManifest& manifest = *options_.manifest;
+  const double steps_per_cycle = 1 / (manifest.phase_frequency * manifest.period);
+  recovery_end_ = num_steps_ + static_cast<int>(std::lround(kRecoveryCycles * steps_per_cycle));
+  builder_.restart_phase(motion::recovery_lead(state_));
+  if (!options_.command) input_.command = kStepInPlace;
+}
+
+void PolicyEnvironment::answer_push() {
+  const PolicyManifest& manifest = *options_.manifest;
+  if (!manifest.recovery_margin) return;
+  if (input_.command.isZero(0) && motion::is_pushed_at_rest(state_)) begin_recovery();
+  cycles_since_outward_ += manifest.period * manifest.phase_frequency;
+  if (cycles_since_outward_ <= motion::kOutwardCycles) return;
+  if (const auto lead = motion::find_outward_lead(state_, motion::kOutwardMargin)) {
+    builder_.restart_phase(*lead);
+    cycles_since_outward_ = 0;
+  }
+}
+
+void PolicyEnvironment::find_state() {
+  const Eigen::Vector3d last = state_.center_of_mass_in_odometry;
+  kinematics_.update({before_.position.begin(), before_.position.end()});
+  state_.torso_in_odometry = before_.torso;
+  state_.center_of_mass_in_odometry = before_.torso * kinematics_.center_of_mass();
+  state_.center_of_mass_velocity_in_odometry =
+      num_steps_ > 0
+          ? Eigen::Vector3d((state_.center_of_mass_in_odometry - last) / options_.manifest->period)
+          : Eigen::Vector3d(before_.torso.linear() * before_.linear_velocity);
+  const double weight = kGravity * options_.model->total_mass();
+  const double least = options_.model->references().contact_forces.contact / weight;
+  state_.left_foot_carries = before_.load[0] > least;
+  state_.right_foot_carries = before_.load[1] > least;
+  std::vector<Eigen::Vector2d> corners;
+  for (size_t foot = 0; foot < 2; ++foot) {
+    if (before_.load[foot] <= least) continue;
+    const auto& outline =
+        foot == 0 ? options_.model->left_sole_outline() : options_.model->right_sole_outline();
+    for (const Eigen::Vector2d& corner : outline) {
+      corners.push_back(
+          (before_.soles[foot] * Eigen::Vector3d(corner.x(), corner.y(), 0)).head<2>());
+    }
+  }
+  state_.support_polygon_in_odometry = convex_hull(std::move(corners));
 }
 
 void PolicyEnvironment::place(bool is_ready) {
@@ -191,7 +239,9 @@ void PolicyEnvironment::step(const float* action, const StepOutput& output) {
     return;
   }
   if (random_.uniform() < manifest.period / options_.command_time) draw_goal();
-  if (num_steps_ >= num_recovery_steps_) {
+  find_state();
+  answer_push();
+  if (num_steps_ >= recovery_end_) {
     input_.command = ramp_command(input_.command, goal_, manifest.period);
   }
   observe(output);
@@ -234,12 +284,11 @@ void PolicyEnvironment::draw_goal() {
   }
 }
 
-double PolicyEnvironment::push() {
+void PolicyEnvironment::push() {
   // Uniform over the disk of the impulses.
   const double impulse = push_ * std::sqrt(random_.uniform()) * options_.model->total_mass();
   const double angle = random_.uniform(-M_PI, M_PI);
   world_->push(0, 0, {impulse * std::cos(angle), impulse * std::sin(angle), 0});
-  return angle;
 }
 
 void PolicyEnvironment::sample(MotionSample& sample) const {

@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "common/random.h"
+#include "daemons/motion/robot_state.h"
+#include "kinematics/kinematics.h"
 #include "policy/observation_builder.h"
 #include "policy/policy_manifest.h"
 #include "robot_model/robot_model.h"
@@ -80,14 +82,19 @@ class PolicyEnvironment {
   void lay_down();
   void set_targets();
   void draw_goal();
-  /** @return Its direction, rad from straight ahead of the world to the left. */
-  double push();
+  void push();
   /** One tick of the simulation. Sent targets change as fast as the motors turn at most. */
   void step_tick();
   /** Steps with the targets that were sent last. @param duration  s. */
   void hold(double duration);
   void observe(const StepOutput& output);
   void sample(MotionSample& sample) const;
+  /** Where the robot is and moves, as nao-motion estimates it, as far as push recovery asks. */
+  void find_state();
+  /** Begins push recovery: it steps in place. */
+  void begin_recovery();
+  /** As nao-motion does: begins push recovery, and has the foot swing that a push bears on. */
+  void answer_push();
 
   EnvironmentOptions options_;
   Random random_;
@@ -113,8 +120,12 @@ class PolicyEnvironment {
   MotionSample after_;
   int ticks_per_step_ = 1;
   int num_steps_ = 0;
-  /** Steps of this episode in which a robot that was pushed steps in place. */
-  int num_recovery_steps_ = 0;
+  /** Steps of this episode until which a robot that was pushed steps in place. */
+  int recovery_end_ = 0;
+  Kinematics kinematics_;
+  motion::RobotState state_;
+  /** Since a push changed which foot swings, gait cycles. */
+  double cycles_since_outward_ = 0;
   int max_steps_ = 0;
 };
 

@@ -180,6 +180,12 @@ void CommandArbiter::start(Assignment assignment, const MotionContext& context,
   running_->generator->start(context, targets);
 }
 
+void CommandArbiter::hand_over(std::unique_ptr<MotionGenerator> generator,
+                               const MotionContext& context, const JointTargets& targets) {
+  running_->generator = std::move(generator);
+  running_->generator->start(context, targets);
+}
+
 void CommandArbiter::start_waiting(const MotionContext& context, const JointTargets& targets) {
   if (!waiting_) return;
   // Safe postures are between the steps of a walk, not within; finish() asks for the next one.

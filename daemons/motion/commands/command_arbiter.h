@@ -56,6 +56,10 @@ class CommandArbiter {
   /** Starts a motion at once in place of the running one, which must have been aborted. */
   void start(Assignment assignment, const MotionContext& context, const JointTargets& targets);
 
+  /** Starts a motion at once that goes on with the running one's command. */
+  void hand_over(std::unique_ptr<MotionGenerator> generator, const MotionContext& context,
+                 const JointTargets& targets);
+
   /** Starts the waiting motion if the running one can be replaced; otherwise asks that one to end.
    */
   void start_waiting(const MotionContext& context, const JointTargets& targets);

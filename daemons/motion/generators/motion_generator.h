@@ -85,6 +85,9 @@ class MotionGenerator {
    * they began is continued for joints whose stiffness this motion leaves alone. */
   virtual void continue_ramps(const std::vector<StiffnessRamp>& /*ramps*/) {}
 
+  /** Command of a walk by the gait, which a policy may go on with; nothing: it is none. */
+  virtual std::optional<WalkCommand> gait_command() const { return std::nullopt; }
+
   /** Progress of a kick that this motion adopted: a walk kicks without stopping. */
   enum class Strike { kNone, kPending, kStruck, kMissed };
   virtual Strike strike() const { return Strike::kNone; }

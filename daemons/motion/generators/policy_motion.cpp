@@ -8,6 +8,7 @@
 #include "daemons/motion/falls/fall_monitor.h"
 #include "daemons/motion/generators/walk_motion.h"
 #include "daemons/motion/guards/joint_limits.h"
+#include "daemons/motion/push_recovery.h"
 #include "daemons/motion/standing_rates.h"
 #include "kinematics/pose2.h"
 #include "policy/command_ramp.h"
@@ -35,15 +36,12 @@ constexpr double kStopTime = 0.5;
 constexpr double kLongestStopTime = 2.5;
 constexpr double kStill = 0.15;
 constexpr double kNearDefault = 0.2;
+// A robot that was pushed steps in place until its stance is the default one, for at most so many
+// gait cycles. Measured: with its feet apart the next push throws it over.
+constexpr double kLongestRecoveryCycles = 6;
 // A get-up ends when the torso has been upright, rad, for so long, s.
 constexpr double kUpright = 0.25;
 constexpr double kUprightTime = 0.5;
-// Distance of the capture point beyond the outer edge of the foot that carries the robot, from
-// which on that foot swings next, as a fraction of the centre of mass's height. Measured (nao-trial
-// push-course --vx 0.3): at 0 a walk withstands up to a tenth less, 0.14 is too late.
-constexpr double kOutwardMargin = 0.09;
-// Least time between two changes of the foot that swings next, gait cycles: a step.
-constexpr double kOutwardCycles = 0.5;
 // s without weight on any foot after which the robot has been lifted: longer than any hop.
 constexpr double kLongestFlight = 0.5;
 
@@ -52,27 +50,6 @@ bool is_near_default(const PolicyManifest& manifest, const std::vector<double>& 
     const double angle = position[static_cast<size_t>(joint.motor)];
     return std::abs(angle - joint.default_angle) < kNearDefault;
   });
-}
-
-/** The robot's left, in odometry. */
-Eigen::Vector2d left_of(const RobotState& state) {
-  const double heading = heading_of(state.torso_in_odometry.linear());
-  return {-std::sin(heading), std::cos(heading)};
-}
-
-/** Lead of the phase at which the foot swings beyond whose outer edge the capture point is: steps
- * of the other one would not bring the robot to rest. Nothing: no push to the side. */
-std::optional<double> find_outward_lead(const RobotState& state) {
-  const auto& corners = state.support_polygon_in_odometry;
-  if (corners.empty()) return std::nullopt;
-  const Eigen::Vector2d left = left_of(state);
-  const double capture = left.dot(calc_capture_point(state));
-  const double margin = kOutwardMargin * state.center_of_mass_in_odometry.z();
-  const auto [rightmost, leftmost] = std::ranges::minmax(
-      corners, {}, [&](const Eigen::Vector2d& corner) { return left.dot(corner); });
-  if (state.left_foot_carries && capture - left.dot(leftmost) > margin) return 0;
-  if (state.right_foot_carries && left.dot(rightmost) - capture > margin) return kRightLead;
-  return std::nullopt;
 }
 
 double tilt_of(const RobotState& state) {
@@ -125,11 +102,18 @@ void PolicyMotion::begin_policy(const JointTargets& targets) {
 }
 
 void PolicyMotion::begin_recovery(const RobotState& state, const JointTargets& targets) {
-  begin_policy(targets);
+  if (stage_ != Stage::kRunning) begin_policy(targets);
+  is_recovering_ = true;
   // The robot has no time for a change from its targets to the policy's.
   time_ = kBlendTime;
-  const bool is_left = left_of(state).dot(state.center_of_mass_velocity_in_odometry.head<2>()) > 0;
-  runner_.start(is_left ? 0 : kRightLead);
+  time_at_rest_ = 0;
+  runner_.restart_phase(recovery_lead(state));
+}
+
+bool PolicyMotion::is_pushed_again(const RobotState& state) const {
+  if (!policy_->manifest->recovery_margin || has_failed_) return false;
+  return (stage_ >= Stage::kFading && is_pushed_off(state, 0)) ||
+         (stage_ == Stage::kRunning && velocity_.isZero(0) && is_pushed_at_rest(state));
 }
 
 void PolicyMotion::return_to_stand(const MotionContext& context, const JointTargets& targets) {
@@ -156,6 +140,7 @@ Reason PolicyMotion::note_fall() {
 MotionGenerator::Phase PolicyMotion::step(const MotionContext& context, JointTargets& targets) {
   has_record_ = false;
   time_ += context.dt;
+  if (is_pushed_again(context.state)) begin_recovery(context.state, targets);
   if (stage_ == Stage::kStandingUp || stage_ == Stage::kEnding) {
     MotionGenerator& path = stage_ == Stage::kEnding ? *end_ : *stand_up_;
     if (is_finishing_) path.finish();
@@ -195,7 +180,8 @@ bool PolicyMotion::run(const MotionContext& context, JointTargets& targets) {
   const PolicyManifest& manifest = *policy_->manifest;
   cycles_since_outward_ += context.dt * manifest.phase_frequency;
   if (manifest.recovery_margin && cycles_since_outward_ > kOutwardCycles) {
-    if (const auto lead = find_outward_lead(context.state)) {
+    if (const auto lead = find_outward_lead(context.state, kOutwardMargin)) {
+      if (velocity_.isZero(0)) begin_recovery(context.state, targets);
       runner_.restart_phase(*lead);
       cycles_since_outward_ = 0;
     }
@@ -236,7 +222,11 @@ bool PolicyMotion::run(const MotionContext& context, JointTargets& targets) {
 
 void PolicyMotion::steer(const MotionContext& context) {
   const PolicyManifest& limits = *policy_->manifest;
-  if (!stand_up_ && time_ * limits.phase_frequency < kRecoveryCycles) {
+  if (is_recovering_) {
+    const double cycles = time_ * limits.phase_frequency;
+    is_recovering_ =
+        cycles < kRecoveryCycles || (cycles < kLongestRecoveryCycles && !is_finishing_ &&
+                                     !is_near_default(limits, context.sensors.position));
     velocity_ = kStepInPlace;
     return;
   }

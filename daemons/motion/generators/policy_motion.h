@@ -51,6 +51,9 @@ class PolicyMotion : public MotionGenerator {
   void approach(const MotionContext& context, const JointTargets& targets);
   void begin_policy(const JointTargets& targets);
   void begin_recovery(const RobotState& state, const JointTargets& targets);
+  /** A robot that the policy has brought to rest, or that is on the way to its stand, is pushed so
+   * that it must step. */
+  bool is_pushed_again(const RobotState& state) const;
   void return_to_stand(const MotionContext& context, const JointTargets& targets);
   void fail(const std::string& why);
   /** @return Whether the policy still moves the robot. */
@@ -70,6 +73,8 @@ class PolicyMotion : public MotionGenerator {
   std::function<void()> on_fault_;
   Stage stage_ = Stage::kStandingUp;
   bool is_finishing_ = false;
+  /** Steps in place after a push. */
+  bool is_recovering_ = false;
   /** Time in this stage, s; since the last walk command; for which the end's condition holds; and
    * without a foot on the ground. */
   double time_ = 0;

@@ -231,6 +231,10 @@ bool WalkMotion::adopt(const Command& command) {
   return true;
 }
 
+std::optional<WalkCommand> WalkMotion::gait_command() const {
+  return mode() == Mode::kWalking ? std::optional(command_) : std::nullopt;
+}
+
 MotionGenerator::Strike WalkMotion::strike() const {
   switch (engine().kick().state()) {
     case WalkKick::State::kPending:

@@ -91,6 +91,7 @@ class WalkMotion : public WalkingMotion {
 
   /** A walk's new velocity, or a kick to strike in passing. */
   bool adopt(const Command& command) override;
+  std::optional<WalkCommand> gait_command() const override;
   Strike strike() const override;
 
  protected:

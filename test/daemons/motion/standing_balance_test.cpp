@@ -92,15 +92,6 @@ TEST_F(StandingBalanceTest, StepsWhenThePointWhereItComesToRestNearsTheToesOrThe
   RobotState state;
   state.center_of_mass_velocity_in_odometry = {1, 0, 0};
   EXPECT_FALSE(StandingBalance(gains_, legs_).must_step(state));
-  EXPECT_FALSE(is_pushed_off(state, 0));
-}
-
-TEST_F(StandingBalanceTest, IsPushedOffItsSolesInAnyDirection) {
-  EXPECT_TRUE(is_pushed_off(moving(0.4, 0), 0.02));
-  EXPECT_TRUE(is_pushed_off(moving(0, -0.56), 0.02));
-  EXPECT_FALSE(is_pushed_off(moving(0, -0.5), 0.02));
-  EXPECT_FALSE(is_pushed_off(moving(0.35, 0), 0.02));
-  EXPECT_FALSE(is_pushed_off(moving(0.19, 0), -0.1));
 }
 
 }  // namespace
