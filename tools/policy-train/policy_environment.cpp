@@ -5,8 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "daemons/motion/estimator/state_estimator.h"
 #include "daemons/motion/push_recovery.h"
-#include "kinematics/support_polygon.h"
 #include "policy/command_ramp.h"
 #include "sim/disturbance_draw.h"
 #include "sim/lying_start.h"
@@ -113,7 +113,7 @@ void PolicyEnvironment::reset(const StepOutput& output) {
   draw_goal();
   sample(before_);
   before_.velocity_error.setZero();
-  find_state();
+  if (is_pushed || manifest.recovery_margin) find_state();
   if (is_pushed) begin_recovery();
   observe(output);
 }
@@ -129,6 +129,7 @@ void PolicyEnvironment::begin_recovery() {
 void PolicyEnvironment::answer_push() {
   const PolicyManifest& manifest = *options_.manifest;
   if (!manifest.recovery_margin) return;
+  find_state();
   if (input_.command.isZero(0) && motion::is_pushed_at_rest(state_)) begin_recovery();
   cycles_since_outward_ += manifest.period * manifest.phase_frequency;
   if (cycles_since_outward_ <= motion::kOutwardCycles) return;
@@ -151,17 +152,9 @@ void PolicyEnvironment::find_state() {
   const double least = options_.model->references().contact_forces.contact / weight;
   state_.left_foot_carries = before_.load[0] > least;
   state_.right_foot_carries = before_.load[1] > least;
-  std::vector<Eigen::Vector2d> corners;
-  for (size_t foot = 0; foot < 2; ++foot) {
-    if (before_.load[foot] <= least) continue;
-    const auto& outline =
-        foot == 0 ? options_.model->left_sole_outline() : options_.model->right_sole_outline();
-    for (const Eigen::Vector2d& corner : outline) {
-      corners.push_back(
-          (before_.soles[foot] * Eigen::Vector3d(corner.x(), corner.y(), 0)).head<2>());
-    }
-  }
-  state_.support_polygon_in_odometry = convex_hull(std::move(corners));
+  state_.left_sole_in_odometry = before_.soles[0];
+  state_.right_sole_in_odometry = before_.soles[1];
+  state_.support_polygon_in_odometry = motion::calc_support_polygon(*options_.model, state_);
 }
 
 void PolicyEnvironment::place(bool is_ready) {
@@ -239,7 +232,6 @@ void PolicyEnvironment::step(const float* action, const StepOutput& output) {
     return;
   }
   if (random_.uniform() < manifest.period / options_.command_time) draw_goal();
-  find_state();
   answer_push();
   if (num_steps_ >= recovery_end_) {
     input_.command = ramp_command(input_.command, goal_, manifest.period);

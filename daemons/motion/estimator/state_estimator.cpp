@@ -188,17 +188,21 @@ void StateEstimator::estimate_velocity(double dt) {
       Eigen::AngleAxisd(-heading, Eigen::Vector3d::UnitZ()) * torso_velocity_in_odometry_;
 }
 
-void StateEstimator::find_support(const Sensors& sensors) {
-  // Corners of all soles that carry, projected on the floor; their hull is the support polygon.
+std::vector<Eigen::Vector2d> calc_support_polygon(const RobotModel& model,
+                                                  const RobotState& state) {
   std::vector<Eigen::Vector2d> corners;
   const auto add = [&](const std::vector<Eigen::Vector2d>& outline, const Eigen::Isometry3d& sole) {
     for (const Eigen::Vector2d& corner : outline) {
       corners.push_back((sole * Eigen::Vector3d(corner.x(), corner.y(), 0)).head<2>());
     }
   };
-  if (state_.left_foot_carries) add(model_->left_sole_outline(), state_.left_sole_in_odometry);
-  if (state_.right_foot_carries) add(model_->right_sole_outline(), state_.right_sole_in_odometry);
-  state_.support_polygon_in_odometry = convex_hull(std::move(corners));
+  if (state.left_foot_carries) add(model.left_sole_outline(), state.left_sole_in_odometry);
+  if (state.right_foot_carries) add(model.right_sole_outline(), state.right_sole_in_odometry);
+  return convex_hull(std::move(corners));
+}
+
+void StateEstimator::find_support(const Sensors& sensors) {
+  state_.support_polygon_in_odometry = calc_support_polygon(*model_, state_);
   state_.balance_margin = margin_in_polygon(state_.support_polygon_in_odometry,
                                             state_.center_of_mass_in_odometry.head<2>());
 

@@ -84,4 +84,8 @@ class StateEstimator {
   Eigen::Vector3d torso_velocity_in_odometry_ = Eigen::Vector3d::Zero();
 };
 
+/** Hull of the soles that carry a robot, projected on the floor; see
+ * RobotState::support_polygon_in_odometry. */
+std::vector<Eigen::Vector2d> calc_support_polygon(const RobotModel& model, const RobotState& state);
+
 }  // namespace nao::motion
