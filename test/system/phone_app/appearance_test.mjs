@@ -20,7 +20,7 @@ const kDesk = {isMobile: false, hasTouch: false};
 const kDark = {colorScheme: "dark"};
 const kLight = {colorScheme: "light"};
 const kPasses = [
-  {name: "320-light-de", size: [320, 568], options: {...kLight, locale: "de-DE"}, isTypical: true},
+  {name: "320-light-de", size: [320, 568], options: {...kLight, locale: "de-DE"}},
   {name: "320-dark-pt", size: [320, 568], options: {...kDark, locale: "pt-PT"}},
   {name: "412-light-en", size: [412, 915], options: {...kLight, locale: "en-US"}},
   {name: "412-dark-de", size: [412, 915], options: {...kDark, locale: "de-DE"}},
