@@ -3,16 +3,10 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "sim/chain_newton.h"
+#include "sim/entry_pair.h"
+
 namespace nao::sim {
-
-/** Two entries of a row, for two degrees of freedom one after the other: one vector instruction
- * works on both. A row of an odd number of entries ends with a 0. */
-using EntryPair = Eigen::Array2d;
-
-/** Pairs of a row that has `count` entries. */
-constexpr int num_pairs(int count) {
-  return (count + 1) / 2;
-}
 
 /** Three rows of a contact: two bodies that press on each other at a point, or roll on each other.
  *
@@ -92,7 +86,8 @@ struct JointRow {
 };
 
 /** Finds the impulses of all contacts and joint rows by projected Gauss-Seidel iterations, starting
- * from the last step's solution.
+ * from the last step's solution; where these converge slowly, with a ChainNewton step for the
+ * contacts of each chain after some of them.
  *
  * One iteration solves row after row (block after block) for its own impulse with all others fixed,
  * and projects it onto its bounds: sequential impulses (E. Catto, Iterative Dynamics with Temporal
@@ -168,6 +163,8 @@ class ConstraintSolver {
   void change_chain(int chain, double* z);
   /** Writes local_ back to z. */
   void leave(double* z);
+  /** A Newton step for all contacts that follow each other and act on the same chain. */
+  void step_chains(double* z);
   std::vector<ContactBlock> blocks_;
   std::vector<JointRow> rows_;
   std::vector<Chain> chains_;
@@ -177,6 +174,7 @@ class ConstraintSolver {
   std::vector<EntryPair> local_;
   /** Chain that local_ belongs to; -1: none. */
   int entered_ = -1;
+  ChainNewton newton_;
 };
 
 }  // namespace nao::sim

@@ -63,6 +63,25 @@ TEST_F(BacklashTest, NeverMovesTheLinkOutOfThePlay) {
   EXPECT_EQ(world.num_bad_states(), 0);
 }
 
+TEST(Backlash, OfAStandingRobotIsSolvedInEachStep) {
+  World world{SceneFile{}};
+  RobotOptions options;
+  options.errors.backlash = Eigen::VectorXd::Constant(nao_model()->num_motors(), 0.5 * kDegree);
+  world.add_robot(nao_model(), options);
+  MotorTargets targets = world.targets(0);
+  const double middle = targets.position[nao_model()->find_motor("LAnklePitch")];
+  int most = 0;
+  for (int i = 0; i < 500; ++i) {
+    for (const char* ankle : {"LAnklePitch", "RAnklePitch"}) {
+      targets.position[nao_model()->find_motor(ankle)] = middle + 0.03 * std::sin(0.1 * i);
+    }
+    world.set_targets(0, targets);
+    world.step_tick();
+    most = std::max(most, world.last_iterations());
+  }
+  EXPECT_LT(most, 50);
+}
+
 TEST_F(BacklashTest, HardlyChangesTheMotionWhereItIsTiny) {
   World& tiny = world(1e-6 * kDegree);
   World exact{SceneFile{}};
