@@ -20,13 +20,7 @@ const {stack, phone} = setUp({framesPerSecond: 0, prepare: (phone) => phone.tap(
 
 /** Taps the ball of a group once the view has come to rest. */
 async function choose(group) {
-  let last = [0, 0];
-  const [x, y] = await until("the ball is at rest", async () => {
-    const place = (await phone.look("ballPlaces()"))[group];
-    const isAtRest = Math.hypot(place[0] - last[0], place[1] - last[1]) < 0.5;
-    last = place;
-    return isAtRest && place;
-  });
+  const [x, y] = await phone.placeAtRest(group);
   await phone.page.touchscreen.tap(x, y);
   await until(`${group} is chosen`, async () => (await phone.look("state.selectedGroup")) === group);
 }

@@ -1,5 +1,6 @@
 // A phone: headless Chromium with a touch screen, and fingers that may be down two at a time.
 import {createRequire} from "node:module";
+import {pause, until} from "./stack.mjs";
 
 const kChromium = process.env.CHROMIUM ?? "/usr/bin/chromium";
 const kOptions = [
@@ -30,6 +31,8 @@ function remember(known) {
 
 /** How many frames a second are enough for a test that does not measure them: here a processor draws them. */
 export const kFewFramesPerSecond = 5;
+/** From one of these frames to the next one, at least, ms. */
+const kOtherFrameMs = 1500 / kFewFramesPerSecond;
 
 /** In the page: it draws no more frames a second. All who wait draw in one frame. */
 function drawSeldom(framesPerSecond) {
@@ -91,6 +94,18 @@ export class Phone {
     const choice = this.page.locator(selector);
     if (!(await choice.isVisible())) await this.tap(".more-button");
     await choice.tap();
+  }
+
+  /** Where the ball of a group of joints is drawn, px, once the view has come to rest. */
+  async placeAtRest(group) {
+    const look = async () => (await this.look("ballPlaces()"))[group];
+    let place = await look();
+    return until(`the ball of ${group} is at rest`, async () => {
+      const last = place;
+      await pause(kOtherFrameMs);
+      place = await look();
+      return Math.hypot(place[0] - last[0], place[1] - last[1]) < 1 && place;
+    });
   }
 
   /** The middle of an element, px. */
