@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -64,6 +65,19 @@ TEST(StateEstimator, LearnsABiasAboveTheAngularVelocityOfARest) {
   sensors.gyroscope_torso.z() += 0.07;
   for (int i = 0; i < 200; ++i) estimator.update(sensors, 0.01);
   EXPECT_NEAR(estimator.state().angular_velocity_torso.z(), 0.07, 1e-3);
+}
+
+// As a robot does after it was put down: its mean over a part of a swing would be taken for the
+// bias.
+TEST(StateEstimator, LearnsNoBiasFromASway) {
+  StateEstimator estimator(nao_model());
+  Sensors sensors = standing("StandInit", 0);
+  for (int i = 0; i < 300; ++i) {
+    sensors.gyroscope_torso.y() = 0.1 * std::cos(2 * std::numbers::pi * 0.01 * i);
+    estimator.update(sensors, 0.01);
+    const double bias = sensors.gyroscope_torso.y() - estimator.state().angular_velocity_torso.y();
+    ASSERT_LT(std::abs(bias), 0.02) << i;
+  }
 }
 
 TEST(StateEstimator, UsesTheInertialUnitsOrientationWhenItStartsInAFall) {
