@@ -10,9 +10,10 @@ namespace nao::sim {
 /** Solves the contacts that act on one chain of degrees of freedom together, by a Newton step.
  *
  * Gauss-Seidel iterations converge slowly where many contacts bear a heavy robot through a light
- * body: a foot whose ankle is free in its backlash gives way to each of its contacts, but not to
- * all of them. Without these steps every third time step of a walk with backlash ended
- * unconverged; over-relaxation, iterations to and fro and a conjugate gradient method did not help.
+ * body: a foot whose ankle is free in its backlash is moved by each of its contacts alone, but all
+ * of them together bear the robot. Without these steps every third time step of a walk with
+ * backlash ended unconverged; over-relaxation, symmetric sweeps and a conjugate gradient method did
+ * not help.
  *
  * Velocity and impulses p_i of the rows y_i that press or stick, with softness s_i > 0 and bias
  * b_i, obey

@@ -114,14 +114,18 @@ bool withstands_pushes(const ScenarioOptions& options, uint64_t seed, double imp
   return is_standing(trial);
 }
 
-std::vector<RunResult> run_pushes(ScenarioOptions options, uint64_t seed) {
-  options.trial.motion.gets_up = false;
-  const double withstood =
-      find_greatest([&](double impulse) { return withstands_pushes(options, seed, impulse); });
-  RunResult result;
+/** @param withstood  N s/kg. */
+void judge(double withstood, RunResult& result) {
   result.metrics.emplace_back("withstood_Ns_per_kg", withstood);
   result.is_success = withstood >= kAskedOfMass;
   if (!result.is_success) result.failure = "fell below the required impulse";
+}
+
+std::vector<RunResult> run_pushes(ScenarioOptions options, uint64_t seed) {
+  options.trial.motion.gets_up = false;
+  RunResult result;
+  judge(find_greatest([&](double impulse) { return withstands_pushes(options, seed, impulse); }),
+        result);
   return {result};
 }
 
@@ -166,9 +170,7 @@ std::vector<RunResult> run_push_course(const ScenarioOptions& options, uint64_t 
     result.metrics.emplace_back(boundary_name(i, num_directions), withstood);
     least = std::min(least, withstood);
   }
-  result.metrics.emplace_back("withstood_Ns_per_kg", least);
-  result.is_success = least >= kAskedOfMass;
-  if (!result.is_success) result.failure = "fell below the required impulse";
+  judge(least, result);
   return {result};
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "nao_model.h"
+#include "test/daemons/motion/moving_robot.h"
 
 namespace nao::motion {
 namespace {
@@ -19,18 +20,7 @@ class StandingBalanceTest : public ::testing::Test {
     gains_.step_margin = 0.03;
   }
 
-  /** A robot whose center of mass is at a height of 1 m over the middle of soles of 0.2 by 0.3 m
-   * that head to the left, at a velocity, m/s, in their frame. */
-  static RobotState moving(double ahead, double left) {
-    RobotState state;
-    state.torso_in_odometry.linear() =
-        Eigen::AngleAxisd(M_PI / 2, Eigen::Vector3d::UnitZ()).toRotationMatrix();
-    state.center_of_mass_in_odometry = {0, 0, 1};
-    state.center_of_mass_velocity_in_odometry = {-left, ahead, 0};
-    state.support_polygon_in_odometry = {{-0.15, -0.1}, {0.15, -0.1}, {0.15, 0.1}, {-0.15, 0.1}};
-    return state;
-  }
-  /** Whether it steps then. */
+  /** Whether a robot that moves, m/s, steps then. */
   bool steps_at(double ahead, double left) const {
     return StandingBalance(gains_, legs_).must_step(moving(ahead, left));
   }
