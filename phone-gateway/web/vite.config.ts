@@ -14,6 +14,8 @@ export default defineConfig({
     modulePreload: false,
   },
   server: {
+    // As a number: a system without /etc/hosts knows no "localhost".
+    host: "127.0.0.1",
     proxy: {
       "/ws": {target: gateway, ws: true, changeOrigin: true},
       "/robots": {target: gateway, changeOrigin: true},
