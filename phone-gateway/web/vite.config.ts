@@ -22,5 +22,5 @@ export default defineConfig({
       "/scenes": {target: gateway, changeOrigin: true},
     },
   },
-  test: {include: ["src/**/*.test.ts"], environment: "node"},
+  test: {include: ["src/**/*.test.ts"], environment: "node", setupFiles: "test_support/web_crypto.ts"},
 });

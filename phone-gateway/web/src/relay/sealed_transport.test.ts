@@ -1,10 +1,6 @@
-import {webcrypto} from "node:crypto";
 import {describe, expect, it} from "vitest";
 import type {Transport, TransportListener} from "../transport";
 import {openInvitation} from "./sealed_transport";
-
-// Node 18 has it under this name only.
-globalThis.crypto ??= webcrypto as Crypto;
 
 /** A relay without a robot: the test says what comes. */
 class Inner implements Transport {

@@ -1,10 +1,6 @@
 import {readFileSync} from "node:fs";
-import {webcrypto} from "node:crypto";
 import {beforeAll, describe, expect, it} from "vitest";
 import {fromHex, Handshake, parseInvitation} from "./secure_channel";
-
-// Node 18 has it under this name only.
-globalThis.crypto ??= webcrypto as Crypto;
 
 /** The vectors that the gateway's tests read too. */
 const vectors = JSON.parse(readFileSync("../../test/phone-gateway/secure_channel/vectors.json", "utf8"));

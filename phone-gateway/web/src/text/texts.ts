@@ -1,6 +1,6 @@
 /** All that the app says, in the language of the page: en.json and its like, of which a phone fetches one. Placeholders are
  * written {name}. `texts` has all keys; `reasons`, by code and with {0}, {1} for arguments, has the sentences of nao-motion
- * (lcmtypes/README.md) and of the gateway (PROTOCOL.md), which come in English with the message. */
+ * (reason_table.h) and of the gateway (gateway_reasons.h), which come in English with the message. */
 import type {Response} from "../protocol/generated/remote_pb";
 import en from "./en.json";
 
