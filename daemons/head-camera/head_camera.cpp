@@ -70,6 +70,8 @@ void HeadCamera::draw(const WorldState& world, const std::string& camera) {
   if (surroundings_.set(world.scene) && !surroundings_.problem().empty()) {
     problems_.push_back(surroundings_.problem());
   }
+  shown_.reset();
+  ++frame_.num_changes;
   scene_.clear();
   Eigen::Isometry3d pose_camera_in_world = Eigen::Isometry3d::Identity();
   for (const RobotPose& robot : world.robots) {
@@ -97,6 +99,7 @@ void HeadCamera::read_back() {
 
 // Each level is made from the one above: 640, 320, 160 pixels wide, down to the requested width.
 void HeadCamera::make_smaller(int min_width) {
+  least_width_ = min_width;
   for (int level = 1; level <= CameraFrame::level(min_width); ++level) {
     halve(frame_.bgrx[level - 1], kFullWidth >> (level - 1), kFullHeight >> (level - 1),
           frame_.bgrx[level]);
@@ -136,7 +139,13 @@ bool HeadCamera::is_exposed(const std::string& camera, const WorldState& world,
 
 const CameraFrame& HeadCamera::take(const WorldState& world, const std::string& camera,
                                     int min_width, const WorldState* earlier) {
-  if (is_exposed(camera, world, earlier)) {
+  const bool is_exposed = this->is_exposed(camera, world, earlier);
+  if (shown_ && !is_exposed && frame_.camera == camera && looks_same(*shown_, world)) {
+    frame_.utime = world.utime;
+    if (min_width < least_width_) make_smaller(min_width);
+    return frame_;
+  }
+  if (is_exposed) {
     expose(*earlier, world, camera);
   } else {
     draw(world, camera);
@@ -145,8 +154,10 @@ const CameraFrame& HeadCamera::take(const WorldState& world, const std::string& 
   }
   // The order is that of a real camera: lens, then sensor noise, then the smaller sizes.
   distort();
-  if (noise_ && camera != kOverviewCamera) noise_->add(frame_.bgrx[0], frame_.utime);
+  const bool is_noisy = noise_ && camera != kOverviewCamera;
+  if (is_noisy) noise_->add(frame_.bgrx[0], frame_.utime);
   make_smaller(min_width);
+  if (!is_exposed && !is_noisy) shown_ = world;
   return frame_;
 }
 

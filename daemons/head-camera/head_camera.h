@@ -24,6 +24,8 @@ namespace nao::camera {
 struct CameraFrame {
   /** Robot time at mid exposure, microseconds. */
   int64_t utime = 0;
+  /** Number of images that the source has computed: as long as it stays, so do the pixels. */
+  int64_t num_changes = 0;
   /** Camera name from the robot's description. */
   std::string camera;
   /** Intrinsics of the largest size. */
@@ -52,7 +54,8 @@ class HeadCamera {
    *   image over itself. */
   HeadCamera(const RobotModel& model, const HeadCameraOptions& options);
 
-  /** Computes the image of one camera, which frame() returns, too.
+  /** Computes the image of one camera, which frame() returns, too. Where nothing moves, and without
+   * exposure and noise, the pixels stay what they are.
    * @param camera  Name of a camera of the robot, or kOverviewCamera: without lens distortion,
    * exposure and noise, even if the robot is not in the world.
    * @param min_width  Sizes below this width are not computed.
@@ -96,6 +99,10 @@ class HeadCamera {
   Exposure exposure_;
   std::vector<uint8_t> distorted_;
   Scene scene_;
+  /** The world that frame_ shows, if the same one would look the same again. */
+  std::optional<WorldState> shown_;
+  /** Least width that frame_ has, pixels. */
+  int least_width_ = 0;
   std::vector<std::string> problems_;
   /** Number of visuals_.problems() that take_problems() has returned. */
   size_t num_told_problems_ = 0;

@@ -139,9 +139,17 @@ void HeadCameraDaemon::send_images(const std::string& camera, const std::vector<
   const CameraFrame& frame = source_->take(camera, min_width);
   figures_.drawing_time += monotonic_seconds() - start;
   for (const ImageRequest& request : due) {
-    const naolcm::image_t image = encode_image(frame, request, options_.quality, encoder_);
+    Sent& sent = sent_[{request.camera, request.width}];
+    naolcm::image_t& image = sent.image;
+    if (sent.num_changes != frame.num_changes || sent.quality != request.quality) {
+      image = encode_image(frame, request, options_.quality, encoder_);
+    }
+    image.utime = frame.utime;
     bus_.publish(channels_.head_camera_image, image);
-    sent_[{request.camera, request.width}] = {source_->utime(camera), now};
+    sent.num_changes = frame.num_changes;
+    sent.quality = request.quality;
+    sent.utime = source_->utime(camera);
+    sent.time = now;
     figures_.largest_message_bytes =
         std::max(figures_.largest_message_bytes, static_cast<double>(image.getEncodedSize()));
   }

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <naolcm/image_t.hpp>
 #include <optional>
 #include <string>
 #include <utility>
@@ -62,10 +63,15 @@ class HeadCameraDaemon {
 
   /** The last image published of one camera and width. */
   struct Sent {
+    naolcm::image_t image;
+    /** Of the frame that it shows. */
+    int64_t num_changes = -1;
+    /** As requested. */
+    int quality = 0;
     /** Robot time of the state. */
-    int64_t utime;
+    int64_t utime = 0;
     /** s, monotonic. */
-    double time;
+    double time = 0;
   };
 
   /** Figures since the last status message. */

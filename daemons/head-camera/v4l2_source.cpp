@@ -158,6 +158,7 @@ const CameraFrame& V4l2Source::take(const std::string& name, int min_width) {
     throw Error("camera " + name + " has no image");
   }
   CameraFrame& frame = cameras_[i].frame;
+  ++frame.num_changes;
   yuyv_to_bgrx(cameras_[i].device->image(), kFullWidth, kFullHeight, frame.bgrx[0]);
   for (int level = 1; level <= CameraFrame::level(min_width); ++level) {
     const auto index = static_cast<size_t>(level);

@@ -17,6 +17,8 @@ struct LitLight {
   std::string name;
   /** Red, green, blue, 0 to 1, as displayed (gamma-encoded). */
   Eigen::Vector3f rgb = Eigen::Vector3f::Zero();
+
+  bool operator==(const LitLight&) const = default;
 };
 
 /** State of one robot, as far as it is visible. */
@@ -51,6 +53,10 @@ struct WorldState {
     return nullptr;
   }
 };
+
+/** Whether two states look the same from everywhere: all but their times is equal, places and angles
+ * to 1e-5 m and rad, a hundredth of a camera's pixel. */
+bool looks_same(const WorldState& a, const WorldState& b);
 
 /** Interpolates between two states, or extrapolates: positions linearly, orientations along the
  * shortest rotation. A robot that is in one of them only is as in `to`.

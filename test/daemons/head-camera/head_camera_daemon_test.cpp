@@ -131,6 +131,18 @@ TEST_F(HeadCameraDaemonTest, UsesTheRequestedQuality) {
   EXPECT_GT(images_[1].size_bytes, 1.3 * images_[0].size_bytes);
 }
 
+TEST_F(HeadCameraDaemonTest, SendsTheSameImageAgainWhileNothingMoves) {
+  request("top", 640);
+  step();
+  step();
+  truth_.robots[0].joint_position[0] += 0.1;
+  step();
+  ASSERT_EQ(images_.size(), 3u);
+  EXPECT_EQ(images_[1].data, images_[0].data);
+  EXPECT_EQ(images_[1].utime, images_[0].utime + 33000);
+  EXPECT_NE(images_[2].data, images_[1].data);
+}
+
 TEST_F(HeadCameraDaemonTest, NeverGoesBackInTime) {
   request("top", 160);
   step();

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <naolcm/world_truth_t.hpp>
 
 #include "common/data_path.h"
@@ -114,6 +115,42 @@ TEST_F(HeadCameraTest, StatesTheTimeOfTheStateWithoutExposure) {
   HeadCamera head_camera(model_, {});
   EXPECT_EQ(head_camera.take(world_, camera().name, kWidth, &earlier_).utime, world_.utime);
   EXPECT_EQ(head_camera.frame().exposure_time, 0);
+}
+
+TEST_F(HeadCameraTest, ComputesAnImageOnlyOfWhatHasChanged) {
+  HeadCamera head_camera(model_, {});
+  const CameraFrame first = head_camera.take(world_, camera().name, kWidth);
+  world_.utime += kStep;
+  world_.robots[0].position[0] += 1e-9;
+  const CameraFrame second = head_camera.take(world_, camera().name, 160);
+  EXPECT_EQ(second.utime, world_.utime);
+  EXPECT_EQ(second.num_changes, first.num_changes);
+  EXPECT_EQ(second.bgrx[0], first.bgrx[0]);
+  EXPECT_EQ(second.bgrx[2].size(), 4u * 160 * 120);
+  RobotPose& robot = world_.robots[0];
+  const std::vector<std::function<void()>> changes = {
+      [&] { robot.position[0] += 2e-5; },
+      [&] { robot.pose_torso_in_world.translation().x() += 2e-5; },
+      [&] {
+        robot.lights.push_back({"left-eye", {1, 0, 0}});
+      },
+      [&] { robot.lights.back().rgb.x() = 0.5; },
+      [&] { robot.number = 3; },
+      [&] { world_.pose_ball_in_world->translation().x() += 2e-5; },
+      [&] { world_.pose_ball_in_world.reset(); },
+      [&] { world_.scene = "empty"; },
+      [&] {
+        world_.robots.push_back(robot);
+        world_.robots.back().name = "OTHER";
+      }};
+  int64_t num_changes = first.num_changes;
+  for (const auto& change : changes) {
+    change();
+    EXPECT_EQ(head_camera.take(world_, camera().name, kWidth).num_changes, ++num_changes);
+    EXPECT_EQ(head_camera.take(world_, camera().name, kWidth).num_changes, num_changes);
+  }
+  EXPECT_GT(head_camera.take(world_, model_.cameras().back().name, kWidth).num_changes,
+            num_changes);
 }
 
 TEST_F(HeadCameraTest, ShowsAKnownPointAtThePixelOfTheDistortionModel) {
