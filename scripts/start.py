@@ -132,7 +132,7 @@ def parse_options(arguments=None):
                      "which is imported: docs/your-robot.md")
     line.option("--only", metavar="LIST",
                 help="only these programs; the others run on other hosts: "
-                     "sim,motion,motion-files,head-camera,speaker,phone-gateway, and what other options add: referee,vision,play")
+                     "sim,motion,motion-files,head-camera,speaker,phone-gateway, and what other options add: robot,referee,vision,play")
     line.option("--only-robots", metavar="LIST",
                 help="with --only: of the programs that there are for each robot only those of these, such as NAO1,NAO2")
     line.option("--no-camera", action="store_true", help="without the head camera")

@@ -38,15 +38,4 @@ namespace nao::sim {
   return result;
 }
 
-/** a - x y^T. */
-[[gnu::always_inline]] inline Eigen::Matrix3d minus_outer(const Eigen::Matrix3d& a,
-                                                          const Eigen::Vector3d& x,
-                                                          const Eigen::Vector3d& y) {
-  Eigen::Matrix3d result;
-  result << a(0, 0) - x[0] * y[0], a(0, 1) - x[0] * y[1], a(0, 2) - x[0] * y[2],  //
-      a(1, 0) - x[1] * y[0], a(1, 1) - x[1] * y[1], a(1, 2) - x[1] * y[2],        //
-      a(2, 0) - x[2] * y[0], a(2, 1) - x[2] * y[1], a(2, 2) - x[2] * y[2];
-  return result;
-}
-
 }  // namespace nao::sim

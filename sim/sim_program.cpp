@@ -45,7 +45,8 @@ int nao::sim::run_sim(int argc, char** argv) {
   bool prints_places = false;
   nao::add_robot_option(app, robots);
   app.add_option("--model", model, "Folder of robots/ that describes robots without a model");
-  app.add_option("--scene", options.scene, "Surroundings of the robot: soccer or empty");
+  app.add_option("--scene", options.scene,
+                 "Surroundings of the robot, a file of scenes/: soccer, empty, hsl_small, ...");
   app.add_option("--posture", options.posture, "Posture that the robots start in");
   app.add_option("--pace", options.pace,
                  "Simulated seconds per second of wall time, 0 as fast as possible")

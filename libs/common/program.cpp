@@ -19,12 +19,12 @@ const char* version() {
 }
 
 void add_log_option(CommandLine& app, CommonOptions& options) {
+  app.add_version_flag("--version", app.name() + " " + version());
   app.add_option("--log-level", options.log_level, "Minimum severity of printed log lines")
       ->one_of({"trace", "debug", "info", "warning", "error"});
 }
 
 void add_bus_options(CommandLine& app, CommonOptions& options) {
-  app.add_version_flag("--version", app.name() + " " + version());
   app.add_option("--lcm-url", options.lcm_url, "URL of the message bus")
       ->from_environment("LCM_DEFAULT_URL");
   add_log_option(app, options);

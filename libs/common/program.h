@@ -20,10 +20,10 @@ struct CommonOptions {
 /** Version of the whole project, such as "0.1.0". */
 const char* version();
 
-/** Adds --log-level to the options of a program without a bus. */
+/** Adds --version and --log-level to the options of a program without a bus. */
 void add_log_option(CommandLine& app, CommonOptions& options);
 
-/** Adds --version, --lcm-url and --log-level to a program's options. */
+/** Adds those and --lcm-url to a program's options. */
 void add_bus_options(CommandLine& app, CommonOptions& options);
 
 /** Adds those and --robot to a program's options. */

@@ -333,12 +333,11 @@ std::vector<RunResult> run_localise(bool is_rendered, const ScenarioOptions& opt
 }  // namespace
 
 Scenario localise_scenario(bool is_rendered) {
-  return with_perception(
-      {"localise",
-       "Estimate the pose on the field from rendered images for --duration (600 s), then after "
-       "being placed elsewhere",
-       localisation_units(), std::bind_front(run_localise, is_rendered)},
-      is_rendered);
+  return with_perception({"localise",
+                          "Estimate the pose on the field for --duration (600 s), then after "
+                          "being placed elsewhere",
+                          localisation_units(), std::bind_front(run_localise, is_rendered)},
+                         is_rendered);
 }
 
 }  // namespace nao::trial

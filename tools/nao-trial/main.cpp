@@ -107,7 +107,7 @@ int main(int argc, char** argv) {
       "bus.",
       "nao-trial");
   nao::CommonOptions common;
-  nao::add_common_options(app, common);
+  nao::add_log_option(app, common);
   app.require_subcommand();
   std::string seeds = "1-10";
   std::string json_file;

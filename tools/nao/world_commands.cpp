@@ -59,8 +59,8 @@ void add_world_commands(CommandLine& app, Invocation& invocation) {
   add_world_command(*world, invocation, "resume", "Resume simulated time");
   add_world_command(*world, invocation, "reset", "Reset the world to its initial state");
 
-  const auto [step, step_command] = add_world_command(
-      *world, invocation, "step", "While paused: run some control ticks of 10 ms");
+  const auto [step, step_command] =
+      add_world_command(*world, invocation, "step", "While paused: run some control ticks");
   step_command->num_ticks = 1;
   step->add_option("ticks", step_command->num_ticks, "How many")->positive();
 

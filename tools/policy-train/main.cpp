@@ -1,4 +1,5 @@
-// nao-batch-simulation: steps many robots together for a policy that is being trained. README.md
+// nao-batch-simulation: steps many robots together for a policy that is being trained:
+// docs/policies.md
 
 #include <fcntl.h>
 #include <sys/mman.h>
@@ -133,7 +134,7 @@ int main(int argc, char** argv) {
       "nao-batch-simulation");
   nao::CommonOptions common;
   common.log_level = "warning";
-  nao::add_common_options(app, common);
+  nao::add_log_option(app, common);
   std::string model = "t1";
   std::string manifest;
   std::string memory;

@@ -59,7 +59,7 @@ int main(int argc, char** argv) {
       "nao-simulation-server");
   nao::CommonOptions common;
   common.log_level = "warning";
-  nao::add_common_options(app, common);
+  nao::add_log_option(app, common);
   std::string model = "nao";
   std::string scene = "empty";
   std::string disturbances = "default";

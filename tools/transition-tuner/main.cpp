@@ -59,7 +59,7 @@ int main(int argc, char** argv) {
       "mpirun, of processes.",
       "nao-transition-tuner");
   nao::CommonOptions common;
-  nao::add_common_options(app, common);
+  nao::add_log_option(app, common);
   nao::TunerOptions options;
   nao::add_search_options(app, options.search, "transitions", "rad and s");
   app.add_option("--transitions", options.file, "File to start from (default: the robot's)");

@@ -12,7 +12,7 @@ int main(int argc, char** argv) {
       "number of threads and, under mpirun, of processes.",
       "nao-walk-tuner");
   nao::CommonOptions common;
-  nao::add_common_options(app, common);
+  nao::add_log_option(app, common);
   nao::tool::TunerOptions options;
   nao::add_search_options(app, options.search, "gait", "fraction of the parameters' ranges");
   app.add_option("--gait", options.gait_file, "Gait file to start from (default: the robot's)");

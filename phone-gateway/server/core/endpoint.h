@@ -8,7 +8,7 @@ namespace nao::gateway {
 struct Endpoint {
   /** IP address without port. */
   std::string address;
-  /** "websocket", "tcp" or "relay". */
+  /** "websocket", "tcp", "relay" or "bluetooth". */
   std::string transport;
   /** On the gateway's own host. */
   bool is_local = false;

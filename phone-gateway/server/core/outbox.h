@@ -33,7 +33,6 @@ class Outbox {
     num_skipped_ += std::exchange(is_state_due_, true) ? 1 : 0;
     is_state_for_second_ = alternates && !is_state_for_second_;
   }
-  bool is_image_due() const { return is_image_due_; }
   void request_image() { num_skipped_ += std::exchange(is_image_due_, true) ? 1 : 0; }
 
   void request_play_state() { num_skipped_ += std::exchange(is_play_state_due_, true) ? 1 : 0; }

@@ -36,7 +36,6 @@ class IdealWalker {
   const RobotState& state() const { return state_; }
   const Kinematics& kinematics() const { return kinematics_; }
   Pose2 torso() const { return Pose2::from(state_.torso_in_odometry); }
-  bool stands_on_left() const { return stands_on_left_; }
 
   /** Moves the joints to the targets. */
   void measure() {
