@@ -54,8 +54,8 @@ struct WorldState {
   }
 };
 
-/** Whether two states look the same from everywhere: all but their times is equal, places and angles
- * to 1e-5 m and rad, a hundredth of a camera's pixel. */
+/** Whether two states look the same from everywhere: all but their times is equal, places and
+ * angles to 1e-5 m and rad, a hundredth of a camera's pixel. */
 bool looks_same(const WorldState& a, const WorldState& b);
 
 /** Interpolates between two states, or extrapolates: positions linearly, orientations along the
