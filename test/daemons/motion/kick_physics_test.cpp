@@ -122,7 +122,7 @@ TEST(Kick, SendsASeenBallBesideItsPathAheadAndTellsItsDirection) {
   EXPECT_EQ(end.status, ResultStatus::kDone);
   EXPECT_GT(way.x(), 2.5);
   const double direction = std::atan2(way.y(), way.x()) * 180 / M_PI;
-  EXPECT_LT(std::abs(direction), 2.5);
+  EXPECT_LT(std::abs(direction), 2);
   ASSERT_EQ(end.reason.code, "kick-direction");
   EXPECT_NEAR(std::stod(end.reason.arguments.at(0)), direction, 2);
 }
