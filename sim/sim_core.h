@@ -26,11 +26,11 @@ class SimCore {
   /** Loads scene and robots. In a match, that is if robots have teams, the ball is at the center.
    * @throws ConfigError, ModelError */
   explicit SimCore(const SimOptions& options);
-  /** A program watches: the world does not rest in the next RestDetector::kRestDelay, and if it
-   * does, what is due is run at once. */
-  void wake(double now) {
-    rest_.note_activity();
-    scheduler_.wake(now);
+  /** A program requests images: in the next RestDetector::kRestDelay a world at rest sends a state
+   * for each. */
+  void take_image_request(double now) {
+    if (!rest_.is_seen(world_)) scheduler_.wake(now);
+    rest_.note_image_request();
   }
   /** Starts the clock: the first tick is due one period from now. */
   void start(double now) { scheduler_.restart(now); }
@@ -74,6 +74,11 @@ class SimCore {
   bool is_state_due() const { return is_state_due_; }
 
  private:
+  /** A program acts: a world at rest runs what is due at once, and every tick from then on. */
+  void wake(double now) {
+    rest_.note_activity();
+    scheduler_.wake(now);
+  }
   /** After a tick: begins or ends the rest of the world. */
   void update_rest();
   /** @return Why a command is rejected; empty if it was executed. */

@@ -97,9 +97,9 @@ void SimDaemon::update_robots() {
         [this, name = robot.name](const naolcm::light_command_t& message) {
           take_light_command(name, message);
         });
-    // Images show every tick.
-    bus_.subscribe_encoded(channels_.back().head_camera_command, Bus::Queue::kLatest,
-                           [this](const RawMessage&) { core_.wake(monotonic_seconds()); });
+    bus_.subscribe_encoded(
+        channels_.back().head_camera_command, Bus::Queue::kLatest,
+        [this](const RawMessage&) { core_.take_image_request(monotonic_seconds()); });
   }
 }
 

@@ -48,9 +48,11 @@ class TickScheduler {
    * @return Whether that tick had been answered before. */
   bool note_command(int robot, int64_t answered_tick, double now);
 
-  /** The ticks after `tick` are run together, up to the next multiple of kRestTicks, without
+  /** The ticks after `tick` are run together, up to the next multiple of `num_ticks`, without
    * waiting for answers. In real time only. */
-  void rest(int64_t tick) { pacer_.begin_batch(kRestTicks - static_cast<int>(tick % kRestTicks)); }
+  void rest(int64_t tick, int num_ticks) {
+    pacer_.begin_batch(num_ticks - static_cast<int>(tick % num_ticks));
+  }
   /** Ticks are left that are run together with the last one: its sensor state is not sent. */
   bool is_in_batch() const { return pacer_.is_in_batch(); }
   /** Ends the batch: those of its ticks that are due are run at once. */
@@ -63,6 +65,8 @@ class TickScheduler {
   /** Ticks between two sensor states of a world at rest. nao-motion takes up to so many for one
    * step. */
   static constexpr int kRestTicks = 10;
+  /** The same while images are requested, at most 30 a second (camera_command_t). */
+  static constexpr int kSeenRestTicks = 3;
 
   /** Whether the tick after `tick` may be run, as far as pause and lock-step decide. */
   bool may_run(int64_t tick) const;
