@@ -46,7 +46,10 @@ const tap = async (phone, selector) => {
   numTaps++;
   await phone.tap(selector);
 };
-const choose = (phone, group) => tap(phone, `.joints-panel [data-name="${group}"]`);
+const choose = async (phone, group) => {
+  await tap(phone, `.joints-panel [data-name="${group}"]`);
+  await until(`${group} is chosen`, async () => (await phone.look("state.selectedGroup")) === group);
+};
 const angle = async (phone, joint) => (await phone.look("jointAngles()"))[joint];
 const keyframes = (phone) => phone.look("state.draft.keyframes");
 const saved = (phone) => phone.look("state.savedMotions");
@@ -62,6 +65,13 @@ async function turn(phone, joint, right, up, change) {
   await phone.fingers("touchStart", [{id: 1, x: pad.x, y: pad.y}]);
   await phone.fingers("touchMove", [{id: 1, x: pad.x + right * pad.radius, y: pad.y - up * pad.radius}]);
   await until(`${joint} has turned`, async () => Math.abs(await angle(phone, joint) - before) > change)
+      .catch(async (error) => {
+        const knob = await phone.page.locator(".joystick-joint .joystick-knob").getAttribute("style");
+        const state = await phone.look("state");
+        assert.fail(`${error.message}: it is at ${await angle(phone, joint)} after ${before} rad, pad ${JSON.stringify(pad)}, ` +
+                    `knob "${knob}", ${state.phase}, age of its state ${state.stateAgeMs} ms, driven by ${state.control.driverId}, ` +
+                    `message "${await phone.page.locator(".messages").innerText()}"`);
+      })
       .finally(() => phone.fingers("touchEnd", []));
 }
 
