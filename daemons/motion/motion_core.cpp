@@ -47,7 +47,6 @@ Output MotionCore::step(const Input& input, double dt) {
     corrected_ = *input.sensors;
     if (correction_) correction_->correct(corrected_);
     dead_foot_sensors_.update(corrected_.foot_force, dt);
-    corrected_.has_dead_foot_sensor |= dead_foot_sensors_.has_dead_sensor();
     take_sensors(corrected_, dt);
   } else {
     wait_for_sensors(dt);

@@ -33,8 +33,6 @@ struct RobotState {
   /** Sum of each foot's force sensors, N; or estimated from the joint torques. */
   double left_foot_force = 0;
   double right_foot_force = 0;
-  /** Whether a force sensor of a foot is dead: the center of pressure is less certain. */
-  bool has_dead_foot_sensor = false;
   /** Which feet carry weight. */
   bool left_foot_carries = false;
   bool right_foot_carries = false;

@@ -1,7 +1,6 @@
 #include "daemons/motion/sensor_correction.h"
 
 #include <Eigen/Geometry>
-#include <algorithm>
 
 namespace nao::motion {
 namespace {
@@ -42,8 +41,6 @@ void SensorCorrection::correct(Sensors& sensors) const {
     sensors.foot_force[i] = scale > 0 ? sensors.foot_force[i] / scale : 0;
   }
   pressure_.replace_dead(is_dead_, sensors.foot_force);
-  sensors.has_dead_foot_sensor =
-      std::find(is_dead_.begin(), is_dead_.end(), true) != is_dead_.end();
 }
 
 }  // namespace nao::motion

@@ -29,8 +29,6 @@ struct Sensors {
   Eigen::Quaterniond orientation_torso_in_world = Eigen::Quaterniond::Identity();
   /** N, never negative, (foot_sensors().size()), in the order of RobotModel::foot_sensors(). */
   std::vector<double> foot_force;
-  /** Whether the force on one of them is implied by the others: it is dead. */
-  bool has_dead_foot_sensor = false;
 };
 
 }  // namespace nao::motion

@@ -46,7 +46,6 @@ const std::vector<std::string> kNotTuned = {
     "velocity.slow_speed",
     "velocity.slow_turning",
     "velocity.slow_envelope_exponent",
-    "velocity.dead_sensor_speed",
     "feedback.max_bias",
     "feedback.max_com_offset",
     "standing.ankle_pitch",

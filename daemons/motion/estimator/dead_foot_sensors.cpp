@@ -1,7 +1,5 @@
 #include "daemons/motion/estimator/dead_foot_sensors.h"
 
-#include <algorithm>
-
 #include "common/constants.h"
 
 namespace nao::motion {
@@ -51,10 +49,6 @@ void DeadFootSensors::update(std::vector<double>& force, double dt) {
     }
   }
   pressure_.replace_dead(is_dead_, force);
-}
-
-bool DeadFootSensors::has_dead_sensor() const {
-  return std::find(is_dead_.begin(), is_dead_.end(), true) != is_dead_.end();
 }
 
 }  // namespace nao::motion

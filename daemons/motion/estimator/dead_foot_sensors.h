@@ -21,7 +21,6 @@ class DeadFootSensors {
    * @param dt  s. */
   void update(std::vector<double>& force, double dt);
   const std::vector<bool>& is_dead() const { return is_dead_; }
-  bool has_dead_sensor() const;
 
  private:
   FootPressure pressure_;

@@ -25,6 +25,11 @@ constexpr double kRestDeviation = 0.5;
 // Angle between estimated and measured up at rest at which the estimate is replaced, rad. Chosen:
 // far above the filter's error, below any change of the side on which a robot lies.
 constexpr double kLostTilt = 0.3;
+// Rest after which the estimates are corrected, s. Chosen: longer than a turning point of a sway.
+constexpr double kSettlingTime = 0.3;
+// The same for the bias until it has been learnt. Chosen: a robot that was put down sways with a
+// period of 1 s.
+constexpr double kFirstSettlingTime = 0.6;
 
 bool measures_gravity(const Eigen::Vector3d& accelerometer) {
   return std::abs(accelerometer.norm() - kGravity) < kRestDeviation;
@@ -33,13 +38,13 @@ bool measures_gravity(const Eigen::Vector3d& accelerometer) {
 }  // namespace
 
 void OrientationFilter::update(const Eigen::Vector3d& gyroscope,
-                               const Eigen::Vector3d& accelerometer, bool is_at_rest, double dt) {
+                               const Eigen::Vector3d& accelerometer, double rest_time, double dt) {
   if (!is_started_) {
     start(gyroscope, accelerometer);
     return;
   }
-  if (is_at_rest) {
-    recover(accelerometer);
+  if (rest_time > kSettlingTime) recover(accelerometer);
+  if (rest_time > (has_learnt_bias() ? kSettlingTime : kFirstSettlingTime)) {
     // At first the mean of all measurements, then of the latest.
     learnt_time_ = std::min(learnt_time_ + dt, kRestTimeConstant);
     bias_ += (gyroscope - bias_) * std::min(1.0, dt / learnt_time_);

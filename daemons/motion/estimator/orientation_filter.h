@@ -34,10 +34,10 @@ class OrientationFilter {
   /** Adds one measurement.
    * @param gyroscope      Angular velocity, rad/s, T.
    * @param accelerometer  Specific force, m/s^2, T: (0, 0, +g) upright at rest.
-   * @param is_at_rest     True while nothing moves: the gyroscope then measures its bias.
+   * @param rest_time      For which nothing has moved, s: the gyroscope then measures its bias.
    * @param dt  Time since the last measurement, s. */
   void update(const Eigen::Vector3d& gyroscope, const Eigen::Vector3d& accelerometer,
-              bool is_at_rest, double dt);
+              double rest_time, double dt);
 
   /** Re-expresses a vector given in T in O. */
   const Eigen::Quaterniond& orientation() const { return orientation_; }

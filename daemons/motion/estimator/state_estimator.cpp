@@ -24,9 +24,6 @@ constexpr double kRestChange = 0.03;
 // Time constant of the gyroscope's mean, s. Chosen: ten ticks, below the sway of a robot that comes
 // to rest (0.4 s).
 constexpr double kMeanRateTimeConstant = 0.1;
-// Rest after which the gyroscope's bias is learnt, s. Chosen: longer than a turning point of a
-// sway.
-constexpr double kSettlingTime = 0.3;
 // Time constant of the velocity filter, s. Chosen: three periods of 10 ms, since differences of 0.1
 // degree encoder steps over one period are noisy.
 constexpr double kVelocityTimeConstant = 0.03;
@@ -71,7 +68,6 @@ void StateEstimator::reset() {
 void StateEstimator::update(const Sensors& sensors, double dt) {
   state_.utime = sensors.utime;
   state_.tick = sensors.tick;
-  state_.has_dead_foot_sensor = sensors.has_dead_foot_sensor;
   state_.joint_position = sensors.position;
   state_.joint_velocity = sensors.velocity;
   // Order: orientation needs rest, position needs orientation and support foot, velocity needs
@@ -107,8 +103,7 @@ void StateEstimator::estimate_orientation(const Sensors& sensors, double dt) {
   // Simulators and robots give an orientation; its first value is taken as a start, the later ones
   // are compared.
   if (!is_started_) orientation_.reset(sensors.orientation_torso_in_world);
-  orientation_.update(sensors.gyroscope_torso, sensors.accelerometer_torso,
-                      rest_time_ > kSettlingTime, dt);
+  orientation_.update(sensors.gyroscope_torso, sensors.accelerometer_torso, rest_time_, dt);
   orientation_check_.update(sensors.orientation_torso_in_world, orientation_.orientation(), dt);
   state_.orientation_doubt = orientation_check_.doubt();
   state_.torso_in_odometry.linear() = orientation_.orientation().toRotationMatrix();

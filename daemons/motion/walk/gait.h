@@ -30,11 +30,10 @@ struct Gait {
                       min_foot_separation, max_turn_outward, max_turn_inward,
                       turn_inward_without_spread, square_distance);
   /** Velocity of the steps: change per step, m/s and rad/s; exponent; 1/s; m; lags in s and the
-   * fractions of the greatest velocity, and of the greatest turn, at the longer one; fraction of
-   * both with a dead foot sensor. */
+   * fractions of the greatest velocity, and of the greatest turn, at the longer one. */
   NAO_PARAMETER_GROUP(Velocity, velocity, max_change_vx, max_change_vy, max_change_wz,
                       envelope_exponent, path_gain, max_path_offset, full_speed_lag, slow_speed_lag,
-                      slow_speed, slow_turning, slow_envelope_exponent, dead_sensor_speed);
+                      slow_speed, slow_turning, slow_envelope_exponent);
   /** Control law of the zero moment point: gain and range on the sole, m. */
   NAO_PARAMETER_GROUP(Zmp, zmp, gain, reach_forward, reach_backward, reach_sideways);
   /** Feedback of the measured center of mass: s, 1/s, dimensionless gains, bounds in m. */

@@ -13,8 +13,7 @@ Eigen::Vector3d VelocityPlanner::clip(const Eigen::Vector3d& velocity) const {
                               limits_.sideways, limits_.turning);
   const double speed = std::lerp(1.0, gait_->slow_speed, slowness_);
   const double turning = std::lerp(1.0, gait_->slow_turning, slowness_);
-  const Eigen::Vector3d max =
-      speed_fraction_ * Eigen::Vector3d(speed, speed, turning).cwiseProduct(limit);
+  const Eigen::Vector3d max = Eigen::Vector3d(speed, speed, turning).cwiseProduct(limit);
   const double exponent =
       std::lerp(gait_->envelope_exponent, gait_->slow_envelope_exponent, slowness_);
   double sum = 0;

@@ -22,9 +22,6 @@ class VelocityPlanner {
    * linear between. */
   void set_slowness(double slowness) { slowness_ = slowness; }
 
-  /** @param fraction  Fraction of the robot's limits, in addition to the slowdown; 1: all. */
-  void set_speed_fraction(double fraction) { speed_fraction_ = fraction; }
-
   /** The greatest velocity along the direction of the given one that lies in the envelope
    * sum (|v_i| / max_i)^p <= 1, or the given one if it does. */
   Eigen::Vector3d clip(const Eigen::Vector3d& velocity) const;
@@ -57,7 +54,6 @@ class VelocityPlanner {
   const Gait::Velocity* gait_;
   WalkLimits limits_;
   double slowness_ = 0;
-  double speed_fraction_ = 1;
   PathTracker path_;
   Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d step_velocity_ = Eigen::Vector3d::Zero();

@@ -197,8 +197,6 @@ void WalkEngine::begin_step() {
   if (!is_ending_) target = kick_.begin_step(commanded_, feet_.support_is_left(), body);
   // A longer lag leaves less stability: the envelope shrinks with it.
   velocity_.set_slowness(calc_slowness(gait_->velocity, lag_.lag()));
-  velocity_.set_speed_fraction(observer_.has_dead_foot_sensor() ? gait_->velocity.dead_sensor_speed
-                                                                : 1);
   velocity_.begin_step(target, body, is_ending_, !is_capturing_ && !kick_.seeks_ball());
   // This is set before plan_steps(), so that it plans the last step.
   is_capturing_ = is_ending_;

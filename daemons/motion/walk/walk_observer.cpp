@@ -42,7 +42,6 @@ void WalkObserver::update(const RobotState& state, const Vector3d& com_in_torso,
   tilt_.y() -= torso_pitch;
   tilt_ = tilt_.cwiseMax(-kMaxTilt).cwiseMin(kMaxTilt);
   gyroscope_.update(state.angular_velocity_torso, dt);
-  has_dead_foot_sensor_ = state.has_dead_foot_sensor;
   swing_force_ = support_is_left ? state.right_foot_force : state.left_foot_force;
 }
 

@@ -41,8 +41,6 @@ class WalkObserver {
   const Eigen::Vector3d& angular_velocity() const { return gyroscope_.value(); }
   /** Load on the foot that was the swing foot in the last update(), N. */
   double swing_force() const { return swing_force_; }
-  /** The center of pressure is less certain. */
-  bool has_dead_foot_sensor() const { return has_dead_foot_sensor_; }
   const Pose2& sole_in_odometry(bool is_left) const { return soles_in_odometry_[is_left ? 0 : 1]; }
   /** Midpoint of the soles, with the torso's heading, in odometry. */
   Pose2 midpoint_in_odometry() const;
@@ -63,7 +61,6 @@ class WalkObserver {
   Eigen::Vector3d tilt_ = Eigen::Vector3d::Zero();
   double torso_heading_ = 0;
   double swing_force_ = 0;
-  bool has_dead_foot_sensor_ = false;
   /** Left, right. */
   std::array<Pose2, 2> soles_in_odometry_;
 };

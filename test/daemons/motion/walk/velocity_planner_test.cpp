@@ -53,15 +53,6 @@ TEST_F(VelocityPlannerTest, CombinesLessOfEachDirectionWhenSlow) {
   EXPECT_TRUE(planner_.clip(slow).isApprox(slow * std::pow(3, -1 / gait.slow_envelope_exponent)));
 }
 
-TEST_F(VelocityPlannerTest, ClipsToAFractionOfTheSlowLimitsWithADeadSensor) {
-  const WalkLimits& limits = nao_model().walk_limits();
-  const auto& gait = nao_gait().velocity;
-  planner_.set_slowness(1);
-  planner_.set_speed_fraction(gait.dead_sensor_speed);
-  EXPECT_DOUBLE_EQ(planner_.clip({9, 0, 0}).x(),
-                   gait.dead_sensor_speed * gait.slow_speed * limits.forward);
-}
-
 TEST(Slowness, RisesWithTheLag) {
   double last = 0;
   for (double lag = 0.02; lag < 0.08; lag += 0.001) {

@@ -242,7 +242,7 @@ TEST_F(WalkPhysicsTest, KeepsStraightAndToItsSpeed) {
   EXPECT_NEAR(place().y(), start.y(), 0.2);
 }
 
-TEST_F(WalkPhysicsTest, WalksSlowerWithADeadFootSensor) {
+TEST_F(WalkPhysicsTest, WalksAtFullSpeedWithADeadFootSensor) {
   // The sensor of seed 1 is dead.
   ClosedLoop& trial = begin(1, 0, "foot_sensor_dead_probability");
   ASSERT_EQ(trial.world().sensors(0).foot_force.minCoeff(), 0);
@@ -251,7 +251,7 @@ TEST_F(WalkPhysicsTest, WalksSlowerWithADeadFootSensor) {
   trial.run(2);
   const Eigen::Vector2d start = place();
   trial.run(5);
-  EXPECT_NEAR((place() - start).norm() / 5, 0.7 * limit, 0.03);
+  EXPECT_GT((place() - start).norm() / 5, 0.9 * limit);
   EXPECT_EQ(mode(), Mode::kWalking);
 }
 
