@@ -14,10 +14,10 @@ constexpr double kLeastLoad = 0.25;
 constexpr double kNothing = 0.01;
 constexpr double kAlive = 0.05;
 constexpr double kImplied = 0.08;
-// Time without a reading under load, with no step in between, after which a sensor is dead, s: if
-// it has never been seen loaded, and if it has. Chosen: longer than a step, which in a walk may
-// leave the outer edge of a sole without load each time, and within the stand before a walk; the
-// second longer than any stand on the edge of a bump.
+// Time without a reading under load after which a sensor is dead, s: if it has never been seen
+// loaded, and, with no step in between, if it has. Chosen: within the stand before a walk; longer
+// than a step, which in a walk may leave the outer edge of a sole without load each time, and than
+// any stand on the edge of a bump.
 constexpr double kDeadTime = 0.3;
 constexpr double kLostTime = 3;
 
@@ -35,7 +35,7 @@ void DeadFootSensors::update(std::vector<double>& force, double dt) {
     double load = 0;
     for (const int sensor : pressure_.sensors_of_foot(i)) load += force[sensor];
     if (load < least_load_) {
-      silent_time_[i] = 0;
+      if (has_been_loaded_[i]) silent_time_[i] = 0;
       continue;
     }
     if (force[i] > kAlive * load) {

@@ -74,6 +74,15 @@ TEST(DeadFootSensors, AWalkThatLeavesACornerUnloadedMakesNoSensorDead) {
   }
 }
 
+// As with joint zeros that let a robot stand on its toes until it walks.
+TEST(DeadFootSensors, ADeadSensorIsFoundInAWalk) {
+  DeadFootSensors sensors(nao_model());
+  const std::vector<double> on_left = {0, 14, 12, 13, 0, 0, 0, 0};
+  const std::vector<double> on_right = {0, 0, 0, 0, 14, 13, 13, 12};
+  for (int step = 0; step < 4; ++step) after(sensors, step % 2 == 0 ? on_left : on_right, 0.24);
+  EXPECT_TRUE(sensors.is_dead()[0]);
+}
+
 TEST(DeadFootSensors, ASensorThatReadsAgainIsAlive) {
   DeadFootSensors sensors(nao_model());
   EXPECT_FALSE(sensors.is_dead()[4]);
