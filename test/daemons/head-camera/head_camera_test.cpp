@@ -128,12 +128,11 @@ TEST_F(HeadCameraTest, ComputesAnImageOnlyOfWhatHasChanged) {
   EXPECT_EQ(second.bgrx[0], first.bgrx[0]);
   EXPECT_EQ(second.bgrx[2].size(), 4u * 160 * 120);
   RobotPose& robot = world_.robots[0];
+  const LitLight red{"left-eye", {1, 0, 0}};
   const std::vector<std::function<void()>> changes = {
       [&] { robot.position[0] += 2e-5; },
       [&] { robot.pose_torso_in_world.translation().x() += 2e-5; },
-      [&] {
-        robot.lights.push_back({"left-eye", {1, 0, 0}});
-      },
+      [&] { robot.lights.push_back(red); },
       [&] { robot.lights.back().rgb.x() = 0.5; },
       [&] { robot.number = 3; },
       [&] { world_.pose_ball_in_world->translation().x() += 2e-5; },
