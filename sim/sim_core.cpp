@@ -413,8 +413,9 @@ void SimCore::update_rest() {
   is_state_due_ = !scheduler_.is_in_batch();
   if (rest_.is_at_rest(world_) && is_state_due_ && !lola_ && !scheduler_.is_lock_step() &&
       !scheduler_.is_paused() && scheduler_.pace() == 1) {
-    scheduler_.rest(world_.tick(), rest_.is_seen(world_) ? TickScheduler::kSeenRestTicks
-                                                         : TickScheduler::kRestTicks);
+    scheduler_.rest(world_.tick(), rest_.has_image_request(world_)
+                                       ? TickScheduler::kRestTicksWithImages
+                                       : TickScheduler::kRestTicks);
   }
 }
 

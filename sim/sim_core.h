@@ -29,7 +29,7 @@ class SimCore {
   /** A program requests images: in the next RestDetector::kRestDelay a world at rest sends a state
    * for each. */
   void take_image_request(double now) {
-    if (!rest_.is_seen(world_)) scheduler_.wake(now);
+    if (!rest_.has_image_request(world_)) scheduler_.wake(now);
     rest_.note_image_request();
   }
   /** Starts the clock: the first tick is due one period from now. */

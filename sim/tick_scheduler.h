@@ -66,7 +66,7 @@ class TickScheduler {
    * step. */
   static constexpr int kRestTicks = 10;
   /** The same while images are requested, at most 30 a second (camera_command_t). */
-  static constexpr int kSeenRestTicks = 3;
+  static constexpr int kRestTicksWithImages = 3;
 
   /** Whether the tick after `tick` may be run, as far as pause and lock-step decide. */
   bool may_run(int64_t tick) const;

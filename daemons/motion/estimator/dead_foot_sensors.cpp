@@ -14,10 +14,10 @@ constexpr double kLeastLoad = 0.25;
 constexpr double kNothing = 0.01;
 constexpr double kAlive = 0.05;
 constexpr double kImplied = 0.08;
-// Time without a reading under load after which a sensor is dead, s: if it has never been seen
-// loaded, and, with no step in between, if it has. Chosen: within the stand before a walk; longer
-// than a step, which in a walk may leave the outer edge of a sole without load each time, and than
-// any stand on the edge of a bump.
+// Time without a reading under load after which a sensor is dead, s. The first is for a sensor that
+// has never been loaded; chosen: within the stand before a walk. The second, with no step in
+// between, is for one that has been loaded; chosen: longer than a step, which may leave the outer
+// edge of a sole without load each time, and than any stand on the edge of a bump.
 constexpr double kDeadTime = 0.3;
 constexpr double kLostTime = 3;
 

@@ -26,8 +26,8 @@ class DeadFootSensors {
   FootPressure pressure_;
   /** Least load on a foot with which its sensors are judged, N. */
   double least_load_;
-  /** Time without a reading under load, s; of one that has been loaded since its foot was put
-   * down. */
+  /** Time without a reading under load, s; for a sensor that has been loaded before, only since
+   * its foot was put down. */
   std::vector<double> silent_time_;
   std::vector<bool> has_been_loaded_;
   std::vector<bool> is_dead_;
