@@ -38,6 +38,25 @@ TEST(GetUp, OfAUsedRobotMostlyAtTheFirstTry) {
   EXPECT_GE(num_first, 23);
 }
 
+TEST(GetUp, AfterAFallAheadAtTheFirstTry) {
+  for (const char* robot : {"nao", "t1", "k1"}) {
+    ClosedLoopOptions options = trial_options();
+    options.model = std::make_shared<const RobotModel>(
+        RobotModel::load(std::filesystem::path(NAO_TEST_DATA) / "robots" / robot));
+    int num_first = 0;
+    constexpr int kNumTrials = 10;
+    for (uint64_t seed = 0; seed < kNumTrials; ++seed) {
+      ClosedLoop trial(options, seed);
+      trial.run(1.5);
+      ASSERT_TRUE(knock_over(trial, trial.random(-0.3, 0.3)));
+      const bool is_up = trial.run_until(
+          [&] { return has_got_up(trial) || trial.core().motion_state().num_tries > 1; }, 30);
+      num_first += is_up && trial.core().motion_state().num_tries <= 1 ? 1 : 0;
+    }
+    EXPECT_GE(num_first, 9) << robot;
+  }
+}
+
 TEST(GetUp, WithoutTheOptionTheRobotLiesUntilACommand) {
   ClosedLoopOptions options = trial_options();
   options.motion.gets_up = false;
