@@ -11,6 +11,10 @@ namespace {
 constexpr double kStillVelocity = 0.1;  // rad/s
 constexpr int kNumStill = 10;           // ticks
 constexpr double kLongestWait = 3;      // s
+// Time for which a robot that has got up must stand. A robot that ends off its balance falls within
+// 1 s, or begins to step and falls then.
+constexpr double kStandingTime = 2;   // s
+constexpr double kToppledTilt = 0.6;  // rad
 // Fraction of the standing height above which the robot has got up.
 constexpr double kUpright = 0.90625;
 // Up to this weight and height a push of 4 to 6 N s makes a robot fall; a larger one takes an
@@ -70,6 +74,10 @@ bool has_got_up(ClosedLoop& trial) {
   const MotionReferences& references = trial.model().references();
   return trial.core().motion_state().posture == references.ready && trial.torso_tilt() < 0.3 &&
          trial.torso_height() > kUpright * references.heights.standing;
+}
+
+bool keeps_standing(ClosedLoop& trial) {
+  return !trial.run_until([&] { return trial.torso_tilt() > kToppledTilt; }, kStandingTime);
 }
 
 }  // namespace nao::trial

@@ -31,4 +31,7 @@ LyingStill wait_until_still(ClosedLoop& trial);
 /** True if the robot stands in StandInit and its motion state reports it. */
 bool has_got_up(ClosedLoop& trial);
 
+/** Runs for 2 s. @return false as soon as the robot topples: it had got up off its balance. */
+bool keeps_standing(ClosedLoop& trial);
+
 }  // namespace nao::trial

@@ -94,6 +94,7 @@ GetUpResult GetUpCourse::run(ClosedLoopOptions options, const motion::Transition
   result.time = trial.time() - start;
   result.load = effort.load();
   result.shaking = effort.shaking();
+  result.is_up = result.is_up && trial::keeps_standing(trial);
   return result;
 }
 

@@ -10,7 +10,7 @@ namespace nao {
 
 /** Result of a transition graph from one start. */
 struct GetUpResult {
-  /** Whether it stood at the end of the first try. */
+  /** Whether it stood at the end of the first try, and went on standing. */
   bool is_up = false;
   /** Time from lying still to standing in StandInit, or to the failure, s. */
   double time = 0;
