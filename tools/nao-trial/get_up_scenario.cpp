@@ -31,7 +31,7 @@ std::vector<RunResult> run_get_up(const ScenarioOptions& options, uint64_t seed)
   std::string side = lies_on;
   if (side == "left" || side == "right") side = "side";
   result.label += ", " + side;
-  // Those of a robot that has got up and falls again begin anew.
+  // A robot that falls again after it has got up counts its tries from 1 again.
   int num_tries = 0;
   int last_tries = 0;
   trial.on_tick([&] {
