@@ -54,7 +54,14 @@ const angle = async (phone, joint) => (await phone.look("jointAngles()"))[joint]
 const keyframes = (phone) => phone.look("state.draft.keyframes");
 const saved = (phone) => phone.look("state.savedMotions");
 const isActing = async (phone) => (await phone.look("mode")) === "acting";
-const acts = (phone) => until("the robot acts", () => isActing(phone), kCheckMs);
+/** Whether the draft is played, or was: a page that stands still under load sees only the result. */
+const hasActed = async (phone) => (await isActing(phone)) || (await phone.look("state.lastResult?.message")) === "_draft: done.";
+const acts = (phone) => until("the robot acts", () => hasActed(phone), kCheckMs).catch(async (error) => {
+  const {phase, isCheckingMotion, motionFault, lastResult} = await phone.look("state");
+  const message = await phone.page.locator(".messages").innerText();
+  assert.fail(`${error.message}: ${phase}, mode ${await phone.look("mode")}, checking ${isCheckingMotion}, fault ${motionFault?.text}, ` +
+              `last result "${lastResult?.message}", message "${message}", poses ${(await keyframes(phone)).map(({duration}) => duration)}`);
+});
 const hasEnded = (phone) => until("the motion has ended", async () => (await phone.look("mode")) === "holding");
 
 /** Pushes the pad until a joint has turned. */
