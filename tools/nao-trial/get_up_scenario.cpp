@@ -7,7 +7,7 @@
 namespace nao::trial {
 namespace {
 
-constexpr double kGetUpTimeout = 60;  // s, six tries and the waiting between
+constexpr double kGetUpTimeout = 60;  // s, until it stands for good
 constexpr int kMaxTries = 3;          // of a run that succeeds
 
 std::vector<RunResult> run_get_up(const ScenarioOptions& options, uint64_t seed) {
@@ -31,7 +31,7 @@ std::vector<RunResult> run_get_up(const ScenarioOptions& options, uint64_t seed)
   std::string side = lies_on;
   if (side == "left" || side == "right") side = "side";
   result.label += ", " + side;
-  // A robot that falls again after it has got up counts its tries from 1 again.
+  // Motion counts the tries from 1 again when the robot falls after it has got up.
   int num_tries = 0;
   int last_tries = 0;
   trial.on_tick([&] {
@@ -40,15 +40,17 @@ std::vector<RunResult> run_get_up(const ScenarioOptions& options, uint64_t seed)
     last_tries = tries;
   });
   double time = 0;
+  bool is_up = false;
   do {
-    if (!trial.run_until([&] { return has_got_up(trial); }, start + kGetUpTimeout - trial.time())) {
-      result.metrics.emplace_back("tries", num_tries);
-      result.failure = "still down";
-      return {result};
-    }
+    is_up =
+        trial.run_until([&] { return has_got_up(trial); }, start + kGetUpTimeout - trial.time());
     time = trial.time() - start;
-  } while (!keeps_standing(trial));
+  } while (is_up && !keeps_standing(trial));
   result.metrics.emplace_back("tries", num_tries);
+  if (!is_up) {
+    result.failure = "still down";
+    return {result};
+  }
   result.metrics.emplace_back("time_s", time);
   result.metrics.emplace_back("time_from_" + side + "_s", time);
   result.is_success = num_tries <= kMaxTries;

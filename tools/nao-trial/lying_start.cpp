@@ -11,10 +11,12 @@ namespace {
 constexpr double kStillVelocity = 0.1;  // rad/s
 constexpr int kNumStill = 10;           // ticks
 constexpr double kLongestWait = 3;      // s
-// Time for which a robot that has got up must stand. A robot that ends off its balance falls within
-// 1 s, or begins to step and falls then.
-constexpr double kStandingTime = 2;   // s
-constexpr double kToppledTilt = 0.6;  // rad
+// Time for which a robot that has got up must stand, s: as long as a fall counts as the get-up's
+// consequence in motion (FallSupervisor).
+constexpr double kStandingTime = 2;
+// Tilt of the torso at which it falls, rad. Chosen: above those of walks (kWalkingFallTilt,
+// fall_tilt).
+constexpr double kToppledTilt = 0.6;
 // Fraction of the standing height above which the robot has got up.
 constexpr double kUpright = 0.90625;
 // Up to this weight and height a push of 4 to 6 N s makes a robot fall; a larger one takes an
