@@ -19,8 +19,8 @@ constexpr const char* kMotionProgram = "nao-motion";
 constexpr double kStepPeriod = 0.02;
 constexpr double kListPeriod = 1.0;
 constexpr double kAnnouncePeriod = 0.5;
-// Times after a change at which it is announced, s: UDP may lose a message.
-constexpr double kAnnounceTimes[] = {0, 0.1, 0.5};
+// Times after a change at which it is announced again, s: UDP may lose a message.
+constexpr double kAnnounceTimes[] = {0.1, 0.5};
 // Announcements in one step. Chosen: nao-motion takes 16 between two control steps.
 constexpr int kAnnouncementsPerStep = 4;
 
@@ -81,17 +81,19 @@ void MotionFilesDaemon::step() {
     check_ = std::async(std::launch::async,
                         [this, script = job->script] { return checker_.check(script); });
   }
+  const double now = monotonic_seconds();
+  const std::vector<std::string> changes = core_.take_changes();
+  for (const std::string& name : changes) {
+    bus_.publish(channels_.keyframe_motion, to_message(core_.find(name)));
+    for (const double time : kAnnounceTimes) announcements_.push_back({now + time, name});
+  }
+  announce_due(now);
+  // After the motions, since who reads that a motion is saved may play it at once.
   for (const MotionFileResult& result : core_.take_results()) {
     logger::info("command {} of {}: {}", result.id, quoted(result.source),
                  result.is_ok ? "ok" : to_sentence(result.reason));
     bus_.publish(channels_.motion_file_result, to_message(result));
   }
-  const double now = monotonic_seconds();
-  const std::vector<std::string> changes = core_.take_changes();
-  for (const std::string& name : changes) {
-    for (const double time : kAnnounceTimes) announcements_.push_back({now + time, name});
-  }
-  announce_due(now);
   if (!changes.empty()) publish_list();
   const bool is_busy = check_.valid() || !announcements_.empty();
   loop_.set_period(step_timer_, is_busy ? kStepPeriod : kListPeriod);
