@@ -10,12 +10,12 @@ import {drawCameraImage, startFake} from "./fake.mjs";
 import {faultsOfLayout} from "./layout.mjs";
 import {openBrowser, Phone} from "./phone.mjs";
 import {kWebDir} from "./set_up.mjs";
-import {pause, until} from "./stack.mjs";
+import {until} from "./stack.mjs";
 
 const kPictures = process.env.NAO_PICTURES;
-/** The view glides by 0.1 s a frame at the most: fewer would be slow. It takes so long, ms. */
 const kFramesPerSecond = 10;
-const kGlideMs = 900;
+/** What fades in, or glides, would be judged half-way. */
+const kStill = {reducedMotion: "reduce"};
 const kDesk = {isMobile: false, hasTouch: false};
 const kDark = {colorScheme: "dark"};
 const kLight = {colorScheme: "light"};
@@ -76,13 +76,13 @@ for (const {name, size: [width, height], options, ...page} of kPasses.filter((pa
     const faults = [];
     const open = async (url, person) => {
       const phone = await Phone.open(browser, "about:blank", {width, height},
-                                     {...options, name: person, framesPerSecond: kFramesPerSecond});
+                                     {...options, ...kStill, name: person, framesPerSecond: kFramesPerSecond});
       await phone.context.addInitScript(setPage, page);
       await phone.page.goto(url);
       return phone;
     };
     const look = async (phone, state) => {
-      await pause(kGlideMs);
+      await phone.rests();
       if (kPictures) await phone.page.screenshot({path: join(kPictures, `${name}-${state}.png`)});
       for (const fault of [...await faultsOfLayout(phone), ...await violations(phone)]) faults.push(`${state}: ${fault}`);
     };

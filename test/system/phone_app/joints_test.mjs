@@ -20,7 +20,7 @@ const {stack, phone} = setUp({framesPerSecond: 0, prepare: (phone) => phone.tap(
 
 /** Taps the ball of a group once the view has come to rest. */
 async function choose(group) {
-  const [x, y] = await phone.placeAtRest(group);
+  const [x, y] = (await phone.rests())[group];
   await phone.page.touchscreen.tap(x, y);
   await until(`${group} is chosen`, async () => (await phone.look("state.selectedGroup")) === group);
 }

@@ -74,7 +74,7 @@ test("by touch: walking in 3, a kick in 3 more, a bent joint in 4", async (t) =>
   assert.ok(newcomer.take() <= 3);
   await stands(phone);
   // A touch on the arm itself: its ball is there, though not shown yet.
-  const [x, y] = await phone.placeAtRest("right elbow");
+  const [x, y] = (await phone.rests())["right elbow"];
   newcomer.count++;
   await phone.page.touchscreen.tap(x, y);
   await until("joints mode, with the arm chosen", async () => (await phone.look("state.isJointsMode")) && (await phone.look("state.selectedGroup")) !== "");

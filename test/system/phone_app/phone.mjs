@@ -1,6 +1,6 @@
 // A phone: headless Chromium with a touch screen, and fingers that may be down two at a time.
 import {createRequire} from "node:module";
-import {pause, until} from "./stack.mjs";
+import {until} from "./stack.mjs";
 
 const kChromium = process.env.CHROMIUM ?? "/usr/bin/chromium";
 const kOptions = [
@@ -31,8 +31,6 @@ function remember(known) {
 
 /** How many frames a second are enough for a test that does not measure them: here a processor draws them. */
 export const kFewFramesPerSecond = 5;
-/** From one of these frames to the next one, at least, ms. */
-const kOtherFrameMs = 1500 / kFewFramesPerSecond;
 
 /** In the page: it draws no more frames a second. All who wait draw in one frame. */
 function drawSeldom(framesPerSecond) {
@@ -85,6 +83,14 @@ export class Phone {
     return this.page.evaluate(`window.naoRemote.${expression}`);
   }
 
+  /** Waits for so many animation frames: on a busy machine they come seldom. */
+  draws(numFrames) {
+    return this.page.evaluate((count) => new Promise((done) => {
+      const next = (left) => (left > 0 ? requestAnimationFrame(() => next(left - 1)) : done());
+      next(count);
+    }), numFrames);
+  }
+
   async tap(selector) {
     await this.page.locator(selector).tap();
   }
@@ -96,16 +102,17 @@ export class Phone {
     await choice.tap();
   }
 
-  /** Where the ball of a group of joints is drawn, px, once the view has come to rest. */
-  async placeAtRest(group) {
-    const look = async () => (await this.look("ballPlaces()"))[group];
-    let place = await look();
-    return until(`the ball of ${group} is at rest`, async () => {
-      const last = place;
-      await pause(kOtherFrameMs);
-      place = await look();
-      return Math.hypot(place[0] - last[0], place[1] - last[1]) < 1 && place;
+  /** Waits until the robot and the view of it have come to rest. @return where the balls of its groups of joints are drawn, px. */
+  async rests() {
+    let places = await this.look("ballPlaces()");
+    await until("the view is at rest", async () => {
+      const last = places;
+      await this.draws(2);
+      places = await this.look("ballPlaces()");
+      return Object.keys(places).every((group) =>
+          last[group] && Math.hypot(places[group][0] - last[group][0], places[group][1] - last[group][1]) < 1);
     });
+    return places;
   }
 
   /** The middle of an element, px. */

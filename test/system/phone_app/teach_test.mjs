@@ -242,7 +242,7 @@ test("a limb is relaxed and dragged in the simulation, and its pose is added", a
   // One group after the other; only a limp one can be held.
   await until("the arm is limp to the wrist", async () => (await phone.look("state.relaxedGroups")).includes("left wrist"));
   const before = await angle(phone, "LShoulderPitch");
-  const [x, y] = await phone.placeAtRest("left wrist");
+  const [x, y] = (await phone.rests())["left wrist"];
   await phone.fingers("touchStart", [{id: 1, x, y}]);
   await phone.fingers("touchMove", [{id: 1, x: x + 10, y: y - 90}]);
   await until("the arm follows the finger", async () => Math.abs(await angle(phone, "LShoulderPitch") - before) > kMoved)
