@@ -95,7 +95,8 @@ async function teachWave(phone) {
   await turn(phone, "RShoulderPitch", 0, 0.9, 1.2);
   await addPose(phone);
   await choose(phone, "right elbow");
-  await turn(phone, "RElbowYaw", -0.9, 0, 0.5);
+  // So far that the swing back, from 1.39 rad, ends before the joint's stop at 2.09 rad.
+  await turn(phone, "RElbowYaw", -0.9, 0, 0.6);
   await addPose(phone);
   await turn(phone, "RElbowYaw", 0.9, 0, kSwing);
   await addPose(phone);
