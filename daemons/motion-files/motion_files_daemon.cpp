@@ -84,7 +84,7 @@ void MotionFilesDaemon::step() {
   const double now = monotonic_seconds();
   const std::vector<std::string> changes = core_.take_changes();
   for (const std::string& name : changes) {
-    bus_.publish(channels_.keyframe_motion, to_message(core_.find(name)));
+    announce(name);
     for (const double time : kAnnounceTimes) announcements_.push_back({now + time, name});
   }
   announce_due(now);
@@ -99,6 +99,10 @@ void MotionFilesDaemon::step() {
   loop_.set_period(step_timer_, is_busy ? kStepPeriod : kListPeriod);
 }
 
+void MotionFilesDaemon::announce(const std::string& name) {
+  bus_.publish(channels_.keyframe_motion, to_message(core_.find(name)));
+}
+
 void MotionFilesDaemon::announce_due(double now) {
   int num_left = kAnnouncementsPerStep;
   for (auto it = announcements_.begin(); it != announcements_.end() && num_left > 0;) {
@@ -106,7 +110,7 @@ void MotionFilesDaemon::announce_due(double now) {
       ++it;
       continue;
     }
-    bus_.publish(channels_.keyframe_motion, to_message(core_.find(it->name)));
+    announce(it->name);
     it = announcements_.erase(it);
     --num_left;
   }
@@ -119,7 +123,7 @@ void MotionFilesDaemon::announce_next() {
   last_announced_ = next == names.end() ? names.front() : *next;
   // Motions without a file last as long as the nao-motion that they were announced to.
   if (is_temporary_motion(last_announced_)) return;
-  bus_.publish(channels_.keyframe_motion, to_message(core_.find(last_announced_)));
+  announce(last_announced_);
 }
 
 void MotionFilesDaemon::publish_list() {

@@ -36,6 +36,7 @@ class MotionFilesDaemon {
  private:
   /** Starts and ends checks, publishes what is due. */
   void step();
+  void announce(const std::string& name);
   void announce_due(double now);
   /** Announces the motions in turn, so that nao-motion also receives one whose message was lost. */
   void announce_next();
