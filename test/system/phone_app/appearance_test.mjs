@@ -8,12 +8,11 @@ import {after, before, test} from "node:test";
 import {violations} from "./accessibility.mjs";
 import {drawCameraImage, startFake} from "./fake.mjs";
 import {faultsOfLayout} from "./layout.mjs";
-import {openBrowser, Phone} from "./phone.mjs";
+import {kFewFramesPerSecond, openBrowser, Phone} from "./phone.mjs";
 import {kWebDir} from "./set_up.mjs";
 import {until} from "./stack.mjs";
 
 const kPictures = process.env.NAO_PICTURES;
-const kFramesPerSecond = 10;
 /** What fades in, or glides, would be judged half-way. */
 const kStill = {reducedMotion: "reduce"};
 const kDesk = {isMobile: false, hasTouch: false};
@@ -76,7 +75,7 @@ for (const {name, size: [width, height], options, ...page} of kPasses.filter((pa
     const faults = [];
     const open = async (url, person) => {
       const phone = await Phone.open(browser, "about:blank", {width, height},
-                                     {...options, ...kStill, name: person, framesPerSecond: kFramesPerSecond});
+                                     {...options, ...kStill, name: person, framesPerSecond: kFewFramesPerSecond});
       await phone.context.addInitScript(setPage, page);
       await phone.page.goto(url);
       return phone;
@@ -119,6 +118,8 @@ for (const {name, size: [width, height], options, ...page} of kPasses.filter((pa
     await click(ana, ".menu[open] header .round");
     await click(ana, '[data-name="LyingBack"]');
     await until("it lies", async () => (await ana.look("state.state.posture")) === "LyingBack");
+    // Beside a message, which goes away soon, it is smaller.
+    await until("no message is shown", async () => (await ana.page.locator(".message:visible").count()) === 0);
     await look(ana, "lying");
     assert.equal(await ana.page.locator(".strips .chip:visible").count(), 1, "lying, it can only get up");
     const ben = await open(fake.url, "Ben");

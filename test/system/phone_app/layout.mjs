@@ -65,9 +65,7 @@ function look() {
       if (overlap(robot, element.getBoundingClientRect()) > kTouch) faults.push(`${name(element)} covers the robot`);
     }
     const size = Math.max(robot.bottom - robot.top, robot.right - robot.left);
-    // A message goes away soon.
-    const least = (innerWidth > innerHeight ? 0.18 : 0.08) * ([...screen.querySelectorAll(".message")].some(isSeen) ? 0.5 : 1);
-    if (size < least * innerHeight) faults.push(`the robot is ${size.toFixed(0)} px large`);
+    if (size < (innerWidth > innerHeight ? 0.18 : 0.08) * innerHeight) faults.push(`the robot is ${size.toFixed(0)} px large`);
   }
   return faults;
 }
