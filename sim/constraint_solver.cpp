@@ -117,6 +117,9 @@ template <class Count>
 }
 }  // namespace
 
+ContactBlock::ContactBlock() = default;
+JointRow::JointRow() = default;
+
 void ConstraintSolver::reserve(int max_blocks, int max_rows, int max_chains, int max_chain,
                                int max_pairs) {
   blocks_.reserve(max_blocks);

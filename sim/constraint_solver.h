@@ -20,6 +20,9 @@ namespace nao::sim {
  * Rolling: the rows are relative angular velocities about the normal and the tangents. The impulses
  * are bounded by `spinning` and `friction` (m) times the normal impulse of the block before. */
 struct ContactBlock {
+  // As ContactCandidate's.
+  ContactBlock();
+
   /** The solver's chain of degrees of freedom that the rows act on. */
   int chain = -1;
   /** Entries of L^-T J^T, where J is the rows' Jacobian and M = L^T L the mass matrix with its
@@ -61,6 +64,9 @@ struct ContactBlock {
  * The impulse p acts along `apply` (+1 or -1) on the joint and stays in lower..upper; strictly
  * inside, measure * v + softness * p + bias = 0 for the joint's velocity v. */
 struct JointRow {
+  // As ContactCandidate's.
+  JointRow();
+
   /** The solver's chain of degrees of freedom; the row acts on the first ones, and has entries of
    * L^-T J^T for these. */
   int chain = -1;

@@ -42,6 +42,9 @@ struct ContactMemory {
 
 /** Two surfaces that are expected to be closer than the contact margin after the step. */
 struct ContactCandidate {
+  // Defaulted in a source file: emplace_back() would zero all of it before its initializers do.
+  ContactCandidate();
+
   Surface a;
   Surface b;
   /** Bodies in their robots' trees; -1 where the surface is not a robot's. */

@@ -30,6 +30,8 @@ const Matrix3d kFloorFrame = (Matrix3d() << 0, 1, 0, 0, 0, 1, 1, 0, 0).finished(
 
 }  // namespace
 
+ContactAssembler::ActiveContact::ActiveContact() = default;
+
 ContactAssembler::ContactAssembler(MovingBodies& bodies, const WorldOptions& options)
     : bodies_(bodies), options_(options) {}
 

@@ -56,6 +56,9 @@ class ContactAssembler {
 
  private:
   struct ActiveContact {
+    // As ContactCandidate's.
+    ActiveContact();
+
     const ContactCandidate* candidate = nullptr;
     /** Normal and tangents in W, as columns. */
     Eigen::Matrix3d frame;

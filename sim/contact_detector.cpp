@@ -55,6 +55,8 @@ void forget(Memories& memories) {
          radius * greatest_turn(dynamics, body);
 }
 
+ContactCandidate::ContactCandidate() = default;
+
 ContactDetector::ContactDetector(const SceneFile& scene, const MovingBodies& bodies,
                                  const Floor& floor, double step)
     : bodies_(bodies), floor_(floor), step_(step), statics_(make_goal_shapes(scene)) {

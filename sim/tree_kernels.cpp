@@ -6,55 +6,62 @@ namespace nao::sim {
 namespace generic {
 namespace {
 
+typedef double Pair __attribute__((vector_size(16)));
+
+/** x and y, z. */
 struct Vec {
-  double x = 0;
-  double y = 0;
+  Pair xy = {0, 0};
   double z = 0;
 };
 
 inline Vec load(const Packed3& v) {
-  return {v.x, v.y, v.z};
+  Vec result;
+  __builtin_memcpy(&result.xy, &v.x, sizeof(Pair));
+  result.z = v.z;
+  return result;
 }
 inline void store(const Vec& v, Packed3& to) {
-  to.x = v.x;
-  to.y = v.y;
+  __builtin_memcpy(&to.x, &v.xy, sizeof(Pair));
   to.z = v.z;
 }
 inline Vec operator+(const Vec& a, const Vec& b) {
-  return {a.x + b.x, a.y + b.y, a.z + b.z};
+  return {a.xy + b.xy, a.z + b.z};
 }
 inline Vec operator-(const Vec& a, const Vec& b) {
-  return {a.x - b.x, a.y - b.y, a.z - b.z};
+  return {a.xy - b.xy, a.z - b.z};
 }
 inline Vec operator-(const Vec& a) {
-  return {-a.x, -a.y, -a.z};
+  return {-a.xy, -a.z};
 }
 inline Vec operator*(const Vec& a, double s) {
-  return {a.x * s, a.y * s, a.z * s};
+  return {a.xy * s, a.z * s};
 }
 inline double dot(const Vec& a, const Vec& b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
+  const Pair xy = a.xy * b.xy;
+  return xy[0] + xy[1] + a.z * b.z;
 }
 inline Vec cross(const Vec& a, const Vec& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+  const Pair a_yz = {a.xy[1], a.z};
+  const Pair b_yz = {b.xy[1], b.z};
+  const Pair a_zx = {a.z, a.xy[0]};
+  const Pair b_zx = {b.z, b.xy[0]};
+  return {a_yz * b_zx - a_zx * b_yz, a.xy[0] * b.xy[1] - a.xy[1] * b.xy[0]};
 }
 /** Copies the lower triangle of a matrix of these columns to the upper one. */
 inline void mirror(const Vec& x, Vec& y, Vec& z) {
-  y.x = x.y;
-  z.x = x.z;
-  z.y = y.z;
+  y.xy[0] = x.xy[1];
+  z.xy = Pair{x.z, y.z};
 }
 inline void add_diagonal(double value, Vec& x, Vec& y, Vec& z) {
-  x.x += value;
-  y.y += value;
+  x.xy[0] += value;
+  y.xy[1] += value;
   z.z += value;
 }
 
-typedef double Pair __attribute__((vector_size(16)));
 /** Four entries of a row. */
 struct Quad {
-  Pair low = {0, 0};
-  Pair high = {0, 0};
+  Pair low;
+  Pair high;
 };
 inline Quad load_quad(const double* from) {
   Quad quad;

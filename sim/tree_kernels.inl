@@ -296,7 +296,8 @@ template <class Depth>
       for (int i = 0; i <= k; ++i) result[i] += weight * above[i];
     }
   } else {
-    Quad sums[kMostQuads] = {};
+    Quad sums[kMostQuads];
+    for (int q = 0; 4 * q < depth; ++q) sums[q] = Quad{};
     for (int k = 0; k < depth; ++k) {
       const double weight = -scale * entries[k];
       const double* above = inverse + row.ancestors[k];
@@ -347,8 +348,9 @@ void calc_body_rows(const BodyConstants* bodies, const BodyState* states, const 
   for (int first = 0; first < row_length; first += 4) {
     Quad sum[6];
     // The root's J is the unit matrix.
-    for (int axis = 0; axis < 6 && first < 6 && !is_root_fixed; ++axis) {
-      sum[axis] = load_quad(inverse + rows[axis].first + first);
+    const bool has_root = first < 6 && !is_root_fixed;
+    for (int axis = 0; axis < 6; ++axis) {
+      sum[axis] = has_root ? load_quad(inverse + rows[axis].first + first) : Quad{};
     }
     // Joints between the body and the root: their motions, once for each of their entries.
     for (int index = body; index > 0; index = bodies[index].parent) {

@@ -68,7 +68,7 @@ inline void add_diagonal(double value, Vec& x, Vec& y, Vec& z) {
 
 /** Four entries of a row. */
 struct Quad {
-  __m256d v = __m256d{0, 0, 0, 0};
+  __m256d v;
 };
 inline Quad load_quad(const double* from) {
   return {_mm256_loadu_pd(from)};
