@@ -4,6 +4,7 @@
 
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
 #include <immintrin.h>
+#include <sys/platform/x86.h>
 
 // Without FMA, whose bits differ. Nothing in it may be an inline function of another header: the
 // linker could choose this copy for processors without AVX2.
@@ -103,8 +104,9 @@ inline double sum_of(const Quad& quad) {
 
 #pragma GCC pop_options
 
+// By the C library, which can be told to do without: GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX2.
 const TreeKernels* avx2_tree_kernels() {
-  return __builtin_cpu_supports("avx2") ? &avx2::kKernels : nullptr;
+  return CPU_FEATURE_ACTIVE(AVX2) ? &avx2::kKernels : nullptr;
 }
 
 }  // namespace nao::sim

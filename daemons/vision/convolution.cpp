@@ -4,6 +4,10 @@
 #include <cstring>
 #include <limits>
 
+#if defined(__x86_64__)
+#include <sys/platform/x86.h>
+#endif
+
 namespace nao::vision {
 namespace {
 
@@ -38,7 +42,7 @@ constexpr int kLanes = 8;
 #include "daemons/vision/convolution.inl"
 }  // namespace avx2
 #pragma GCC pop_options
-const bool kHasAvx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+const bool kHasAvx2 = CPU_FEATURE_ACTIVE(AVX2) && CPU_FEATURE_ACTIVE(FMA);
 #else
 namespace avx2 = generic;
 constexpr bool kHasAvx2 = false;
