@@ -23,13 +23,17 @@ BatchRows::BatchRows(const PolicyManifest& manifest, int size)
 
 BatchSimulation::BatchSimulation(const EnvironmentOptions& options, int size, int num_threads,
                                  uint64_t seed)
-    : options_(options), num_threads_(num_threads), environments_(static_cast<size_t>(size)) {
+    : options_(options),
+      num_threads_(num_threads),
+      pushes_(options.push),
+      environments_(static_cast<size_t>(size)) {
   this->seed(seed);
 }
 
 void BatchSimulation::seed(uint64_t seed) {
+  pushes_ = PushSchedule(options_.push);
   for (auto& environment : environments_) {
-    environment = std::make_unique<PolicyEnvironment>(options_, seed++);
+    environment = std::make_unique<PolicyEnvironment>(options_, pushes_, seed++);
   }
 }
 
@@ -66,6 +70,12 @@ void BatchSimulation::step(const BatchArrays& arrays) {
     environments_[static_cast<size_t>(i)]->step(
         arrays.actions + i * options_.manifest->num_actions(), output_of(arrays, i));
   });
+  // In this order whatever thread stepped them.
+  for (const auto& environment : environments_) {
+    if (const auto& outcome = environment->push_outcome()) {
+      pushes_.learn(outcome->push, outcome->fallen);
+    }
+  }
 }
 
 }  // namespace nao::policy_train

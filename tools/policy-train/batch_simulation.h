@@ -63,6 +63,7 @@ class BatchSimulation {
 
   EnvironmentOptions options_;
   int num_threads_;
+  PushSchedule pushes_;
   std::vector<std::unique_ptr<PolicyEnvironment>> environments_;
 };
 

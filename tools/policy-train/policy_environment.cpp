@@ -7,6 +7,7 @@
 
 #include "daemons/motion/estimator/state_estimator.h"
 #include "daemons/motion/push_recovery.h"
+#include "kinematics/pose2.h"
 #include "policy/command_ramp.h"
 #include "sim/disturbance_draw.h"
 #include "sim/lying_start.h"
@@ -33,16 +34,13 @@ constexpr double kFastRestShare = 0.5;
 constexpr double kInPlaceShare = 0.3;
 // Time constant of the mean error of the velocity, s. Chosen: most of a gait cycle.
 constexpr double kMeanTime = 0.5;
-// Mean time between two pushes, s; greatest impulse of a robot's first pushes, N s for each kg, and
-// factors on it after an episode without and with a fall. Chosen: harder pushes as they are
-// withstood, so that about one in five throws the robot over.
-constexpr double kPushTime = 2;
-constexpr double kFirstPush = 0.6;
-constexpr double kHarder = 1.15;
-constexpr double kEasier = 0.93;
+// Time after which a push has thrown a robot over or not, and mean time from then until the next
+// one, s. Chosen: falls take less than 1.5 s.
+constexpr double kPushDecided = 1.5;
+constexpr double kPushTime = 0.5;
 // Share of the episodes that begin with a push, and the greatest time from it until the policy
 // moves the robot, s. Chosen: nao-motion lets a policy catch a robot 20 to 60 ms after a push.
-constexpr double kPushedShare = 0.6;
+constexpr double kPushedShare = 0.4;
 constexpr double kCatchTime = 0.08;
 
 sim::WorldOptions world_options(const EnvironmentOptions& options, uint64_t seed) {
@@ -55,10 +53,11 @@ sim::WorldOptions world_options(const EnvironmentOptions& options, uint64_t seed
 
 }  // namespace
 
-PolicyEnvironment::PolicyEnvironment(const EnvironmentOptions& options, uint64_t seed)
+PolicyEnvironment::PolicyEnvironment(const EnvironmentOptions& options, const PushSchedule& pushes,
+                                     uint64_t seed)
     : options_(options),
       random_(seed),
-      push_(std::min(options.push, kFirstPush)),
+      pushes_(pushes),
       world_(std::make_unique<sim::World>(options.scene, world_options(options, seed))),
       builder_(*options.manifest),
       action_(options.manifest->joints.size()),
@@ -102,6 +101,7 @@ void PolicyEnvironment::reset(const StepOutput& output) {
   }
   builder_.reset();
   num_steps_ = 0;
+  last_push_.reset();
   recovery_end_ = 0;
   cycles_since_outward_ = 0;
   input_.command = options_.command.value_or(Eigen::Vector3d::Zero());
@@ -205,7 +205,7 @@ void PolicyEnvironment::step(const float* action, const StepOutput& output) {
     action_[i] = std::isfinite(action[i]) ? std::clamp(action[i], -clip, clip) : 0.0F;
   }
   set_targets();
-  if (options_.push > 0 && random_.uniform() < manifest.period / kPushTime) push();
+  if (options_.push > 0 && !last_push_ && random_.uniform() < manifest.period / kPushTime) push();
   for (int i = 0; i < ticks_per_step_; ++i) step_tick();
   ++num_steps_;
   sample(after_);
@@ -220,14 +220,13 @@ void PolicyEnvironment::step(const float* action, const StepOutput& output) {
                                          kFallenHeight * start_->torso.translation().z());
   calc_reward_terms(*options_.model, manifest, *start_, before_, after_, input_.command,
                     builder_.phase(), fallen, output.reward_terms);
+  judge_push(fallen);
   *output.terminated = fallen ? 1 : 0;
   *output.truncated = !fallen && num_steps_ >= max_steps_ ? 1 : 0;
   std::swap(before_, after_);
   if (*output.terminated != 0 || *output.truncated != 0) {
     observe(output);
     std::copy_n(output.observation, manifest.num_observations(), output.final_observation);
-    const double harder = push_ * (fallen ? kEasier : kHarder);
-    push_ = std::clamp(harder, std::min(options_.push, kFirstPush), options_.push);
     reset(output);
     return;
   }
@@ -277,10 +276,22 @@ void PolicyEnvironment::draw_goal() {
 }
 
 void PolicyEnvironment::push() {
-  // Uniform over the disk of the impulses.
-  const double impulse = push_ * std::sqrt(random_.uniform()) * options_.model->total_mass();
-  const double angle = random_.uniform(-M_PI, M_PI);
-  world_->push(0, 0, {impulse * std::cos(angle), impulse * std::sin(angle), 0});
+  const bool is_stepping =
+      options_.manifest->phase_frequency > 0 && !is_at_rest(*options_.manifest, input_.command);
+  last_push_ = pushes_.draw(is_stepping ? std::optional(builder_.phase()) : std::nullopt, random_);
+  push_time_ = num_steps_ * options_.manifest->period;
+  const double heading = heading_of(world_->robot(0).link_pose(0).linear());
+  const Eigen::Vector2d impulse =
+      Eigen::Rotation2Dd(heading) * last_push_->impulse * options_.model->total_mass();
+  world_->push(0, 0, {impulse.x(), impulse.y(), 0});
+}
+
+void PolicyEnvironment::judge_push(bool fallen) {
+  push_outcome_.reset();
+  const double time = num_steps_ * options_.manifest->period;
+  if (!last_push_ || (!fallen && time < push_time_ + kPushDecided)) return;
+  push_outcome_ = {*last_push_, fallen};
+  last_push_.reset();
 }
 
 void PolicyEnvironment::sample(MotionSample& sample) const {

@@ -16,6 +16,7 @@
 #include "robot_model/target_limiter.h"
 #include "sim/disturbances.h"
 #include "sim/world.h"
+#include "tools/policy-train/push_schedule.h"
 #include "tools/policy-train/reward_terms.h"
 
 namespace nao::policy_train {
@@ -31,8 +32,8 @@ struct EnvironmentOptions {
   /** Longest episode, and mean time between two commanded velocities, s. */
   double episode_time = 20;
   double command_time = 5;
-  /** Greatest horizontal impulse that hits the torso about every three seconds, N s for each kg of
-   * the robot. Those of a robot begin small, and grow with each episode without a fall. */
+  /** Greatest horizontal impulse that hits the torso about every two seconds, N s for each kg of
+   * the robot, see PushSchedule; 0: no pushes. */
   double push = 0;
   /** Share of the episodes with velocity 0 throughout. */
   double rest_share = 0;
@@ -67,14 +68,23 @@ struct StepOutput {
  * on the same build give the same bits. */
 class PolicyEnvironment {
  public:
-  /** @throws ConfigError, ModelError  as sim::World does. */
-  PolicyEnvironment(const EnvironmentOptions& options, uint64_t seed);
+  /** @param pushes  Must outlive this, and changes between steps only.
+   * @throws ConfigError, ModelError  as sim::World does. */
+  PolicyEnvironment(const EnvironmentOptions& options, const PushSchedule& pushes, uint64_t seed);
 
   /** Begins an episode: the robot at its default angles, at rest, or in its ready posture and
    * pushed, as when nao-motion lets a policy catch it; a get-up's robot lies. */
   void reset(const StepOutput& output);
   /** One step of the policy. @param action  (manifest.num_actions()), finite: others count as 0. */
   void step(const float* action, const StepOutput& output);
+
+  /** A push, and whether it threw the robot over. */
+  struct PushOutcome {
+    PushSchedule::Push push;
+    bool fallen = false;
+  };
+  /** Of a push that was decided in the last step. */
+  const std::optional<PushOutcome>& push_outcome() const { return push_outcome_; }
 
  private:
   /** @param is_ready  In the ready posture. */
@@ -83,6 +93,8 @@ class PolicyEnvironment {
   void set_targets();
   void draw_goal();
   void push();
+  /** Decides whether the last push threw the robot over. */
+  void judge_push(bool fallen);
   /** One tick of the simulation. Sent targets change as fast as the motors turn at most. */
   void step_tick();
   /** Steps with the targets that were sent last. @param duration  s. */
@@ -98,8 +110,11 @@ class PolicyEnvironment {
 
   EnvironmentOptions options_;
   Random random_;
-  /** Greatest impulse of a push at present, N s/kg. */
-  double push_;
+  const PushSchedule& pushes_;
+  /** The last push, until it is judged; and its time in the episode, s. */
+  std::optional<PushSchedule::Push> last_push_;
+  double push_time_ = 0;
+  std::optional<PushOutcome> push_outcome_;
   /** The velocity is 0 throughout this episode. */
   bool is_resting_ = false;
   std::unique_ptr<sim::World> world_;

@@ -60,7 +60,8 @@ TEST(PolicyMirror, IsThatOfTheSimulatedRobot) {
     const double sign = side == 0 ? 1 : -1;
     options.command = Eigen::Vector3d(0.1, sign * 0.05, sign * 0.2);
     options.start_spread = 0;
-    PolicyEnvironment environment(options, 1);
+    const PushSchedule pushes(0);
+    PolicyEnvironment environment(options, pushes, 1);
     BatchRows rows(*options.manifest, 1);
     const StepOutput output{rows.observations.data(), rows.final_observations.data(),
                             rows.privileged.data(),   rows.terms.data(),
