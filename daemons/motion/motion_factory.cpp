@@ -52,6 +52,15 @@ const Policy& find_walk_policy(const std::vector<Policy>& policies, const std::s
                     (known.empty() ? "none" : known));
 }
 
+/** The first policy that can be used and whose manifest fits; nullptr: none. */
+template <class Fits>
+const Policy* find_policy(const std::vector<Policy>& policies, Fits fits) {
+  const auto found = std::ranges::find_if(policies, [&](const Policy& policy) {
+    return policy.fault.empty() && fits(*policy.manifest);
+  });
+  return found == policies.end() ? nullptr : &*found;
+}
+
 /** A state of the body as an argument of a reason. */
 std::string name_of(const std::string& body_state) {
   return body_state.empty() ? "unknown" : body_state;
@@ -71,13 +80,17 @@ MotionFactory::MotionFactory(const RobotModel& model, const MotionOptions& optio
   // A robot without gait, kick or scripts is controlled without these; its commands are refused.
   if (!gait_ && std::filesystem::exists(folder / kGaitFile)) gait_ = Gait::load(folder / kGaitFile);
   policies_ = load_policies(model);
-  const auto recovery = std::ranges::find_if(policies_, [](const Policy& policy) {
-    return policy.fault.empty() && policy.manifest->recovery_margin;
+  recovery_ = find_policy(policies_, [](const PolicyManifest& manifest) {
+    return manifest.recovery_margin.has_value();
   });
-  if (recovery != policies_.end()) recovery_ = &*recovery;
   if (gait_ || !policies_.empty()) legs_.emplace(model);
-  if (!options.walk_policy.empty())
+  if (!options.walk_policy.empty()) {
     walk_policy_ = &find_walk_policy(policies_, options.walk_policy);
+  } else if (!gait_) {
+    walk_policy_ = find_policy(policies_, [](const PolicyManifest& manifest) {
+      return manifest.kind == PolicyManifest::Kind::kWalk;
+    });
+  }
   if (std::filesystem::exists(folder / kKickFile)) kick_ = Kick::load(folder / kKickFile);
   if (std::filesystem::exists(folder / kScriptFile)) {
     scripts_ = ActionScript::load(model, folder / kScriptFile);

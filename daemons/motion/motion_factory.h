@@ -143,7 +143,7 @@ class MotionFactory {
   std::vector<ActionScript> scripts_;
   const Posture* stand_;
   std::vector<Policy> policies_;
-  /** The one that walks; nullptr: the gait. */
+  /** The one that walks, as a robot without a gait does from the start; nullptr: the gait. */
   const Policy* walk_policy_ = nullptr;
   /** Push recovery; nullptr: the gait, if there is one. */
   const Policy* recovery_ = nullptr;

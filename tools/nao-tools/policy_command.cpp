@@ -1,4 +1,4 @@
-// nao policy: checks a policy's manifest and network.
+// nao policy: checks a policy's manifest and network, drafts a manifest.
 
 #include <cmath>
 #include <cstdio>
@@ -8,8 +8,10 @@
 
 #include "common/command_line.h"
 #include "common/error.h"
+#include "common/output_file.h"
 #include "policy/policy.h"
 #include "policy/policy_runner.h"
+#include "policy/walk_draft.h"
 #include "tools/nao/subcommand.h"
 #include "tools/nao/tools_subcommands.h"
 
@@ -82,6 +84,15 @@ void check_policy(const std::string& file, const std::string& model_name) {
   std::printf("the robot %s can use the policy %s\n", model.name().c_str(), policy.name.c_str());
 }
 
+void draft_policy(const std::string& folder, const std::string& model_name) {
+  const std::filesystem::path file = std::filesystem::path(folder) / kPolicyFile;
+  if (std::filesystem::exists(file)) throw Error(file.string() + " exists already");
+  const std::string text = draft_walk_policy(load_robot(file, model_name));
+  std::filesystem::create_directories(folder);
+  replace_file(file, text);
+  std::printf("%s\n", file.c_str());
+}
+
 }  // namespace
 
 void add_policy_command(CommandLine& app, Invocation& invocation) {
@@ -92,14 +103,25 @@ void add_policy_command(CommandLine& app, Invocation& invocation) {
     std::string model;
   };
   const auto options = std::make_shared<Options>();
+  const auto add_model = [options](CommandLine& command) {
+    command.add_option("--model", options->model,
+                       "Robot; default: the one in whose folder the file lies");
+  };
   CommandLine* check = policy->add_subcommand(
       "check",
       "Load a policy and print what it observes and moves; exit status 1: it cannot be used");
   check->add_option("file", options->file, "Its policy.yaml, or the folder of it")->required();
-  check->add_option("--model", options->model,
-                    "Robot; default: the one in whose folder the file lies");
+  add_model(*check);
   invocation.on(*check, [options](const auto& /*common*/) {
     check_policy(options->file, options->model);
+    return 0;
+  });
+  CommandLine* draft = policy->add_subcommand(
+      "draft", "Write the policy.yaml of a walk that is to be trained: docs/policies.md");
+  draft->add_option("folder", options->file, "robots/NAME/policies/POLICY")->required();
+  add_model(*draft);
+  invocation.on(*draft, [options](const auto& /*common*/) {
+    draft_policy(options->file, options->model);
     return 0;
   });
 }

@@ -26,8 +26,8 @@ constexpr ToolsSubcommand kSelfTestSubcommand = {
 
 constexpr ToolsSubcommand kRobotSubcommand = {"robot", "Import and check the files of a robot"};
 
-constexpr ToolsSubcommand kPolicySubcommand = {"policy",
-                                               "Check a neural network that moves a robot"};
+constexpr ToolsSubcommand kPolicySubcommand = {
+    "policy", "Check a neural network that moves a robot, or draft one for a training"};
 
 constexpr ToolsSubcommand kRecordSubcommand = {
     "record", "Record messages into a log until Ctrl-C; scripts/record knows the stack's bus"};

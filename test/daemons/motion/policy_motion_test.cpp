@@ -86,6 +86,16 @@ TEST_F(PolicyMotionTest, AWalkByAPolicyThatHoldsItsDefaultAnglesStands) {
   EXPECT_LT(fastest_, 0.5);
 }
 
+TEST_F(PolicyMotionTest, ARobotWithoutAGaitWalksByItsPolicy) {
+  robot_.remove("gait.yaml");
+  robot_.add("hold", kWalk, kKnees, 5, {OnnxFile::constant(5, {0, 0})});
+  begin();
+  EXPECT_EQ(walk(0.3, 3).status, ResultStatus::kDone);
+  // Another walk is none that it knows.
+  act("own-gait");
+  EXPECT_EQ(walk(0.3, 3).reason.code, "no-gait");
+}
+
 TEST_F(PolicyMotionTest, AnotherMotionTakesOverWithoutAJump) {
   robot_.add("hold", kWalk, kKnees, 5, {OnnxFile::constant(5, {0, 0})});
   begin("hold");

@@ -36,6 +36,7 @@ class PolicyRobot {
                                          joints);
     OnnxFile::write(policy / "policy.onnx", num_inputs, layers);
   }
+  void remove(const std::string& file) const { std::filesystem::remove(folder() / file); }
   std::filesystem::path network_of(const std::string& name) const {
     return folder() / kPolicyFolder / name / "policy.onnx";
   }
