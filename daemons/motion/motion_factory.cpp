@@ -88,7 +88,7 @@ MotionFactory::MotionFactory(const RobotModel& model, const MotionOptions& optio
     walk_policy_ = &find_walk_policy(policies_, options.walk_policy);
   } else if (!gait_) {
     walk_policy_ = find_policy(policies_, [](const PolicyManifest& manifest) {
-      return manifest.kind == PolicyManifest::Kind::kWalk;
+      return manifest.kind == PolicyManifest::Kind::kWalk && !manifest.recovery_margin;
     });
   }
   if (std::filesystem::exists(folder / kKickFile)) kick_ = Kick::load(folder / kKickFile);

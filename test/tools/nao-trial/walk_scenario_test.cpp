@@ -37,13 +37,15 @@ TEST(WalkScenario, SucceedsWithEachRobotOfTheData) {
   }
 }
 
-TEST(WalkScenario, GivesTheReasonOfAWalkThatDidNotBegin) {
+TEST(WalkScenario, WithoutAGaitARobotWalksByItsPolicyOrSaysThatItDoesNot) {
   const TemporaryFolder folder;
   const std::filesystem::path robot = folder.path() / "t1";
   std::filesystem::copy(data_path() / "robots" / "t1", robot,
                         std::filesystem::copy_options::recursive);
   std::filesystem::remove(robot / "gait.yaml");
-  // Also not with a policy that it does not use.
+  const RunResult result = walk(robot, 0.2);
+  EXPECT_TRUE(result.is_success) << result.failure;
+  std::filesystem::remove_all(robot / "policies");
   EXPECT_THAT(walk(robot, 0.2).failure, testing::HasSubstr("has no gait"));
 }
 
