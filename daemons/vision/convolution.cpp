@@ -4,7 +4,7 @@
 #include <cstring>
 #include <limits>
 
-#if defined(__x86_64__)
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
 #include <sys/platform/x86.h>
 #endif
 
