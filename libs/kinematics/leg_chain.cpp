@@ -6,23 +6,13 @@
 #include <vector>
 
 #include "common/error.h"
+#include "kinematics/leg_joints.h"
 
 namespace nao {
 namespace {
 
 // Component along x, the sine of an angle, above which a tilted hip axis can roll the leg.
 constexpr double kTilted = 0.3;
-
-/** Joints of one leg that are not shared with the other leg. */
-std::vector<int> own_joints(const RobotModel& model, Leg leg) {
-  const std::vector<int>& joints = model.legs()[leg == Leg::kLeft ? 0 : 1].joints;
-  const std::vector<int>& others = model.legs()[leg == Leg::kLeft ? 1 : 0].joints;
-  std::vector<int> own;
-  for (const int joint : joints) {
-    if (std::find(others.begin(), others.end(), joint) == others.end()) own.push_back(joint);
-  }
-  return own;
-}
 
 /** Directions of the joints by their greatest component: 0 roll, 1 pitch, 2 yaw. A hip axis that is
  * tilted between yaw and pitch counts as yaw. */
@@ -123,7 +113,7 @@ LegChain LegChain::read(const RobotModel& model, Leg leg) {
   const auto fail = [&](const std::string& what) {
     throw ModelError("the " + name + " of " + model.name() + " has no inverse kinematics: " + what);
   };
-  const std::vector<int> joints = own_joints(model, leg);
+  const std::vector<int> joints = own_leg_joints(model, leg == Leg::kLeft ? 0 : 1);
   LegChain chain;
   if (joints.size() < 3 || joints.size() > size_t{kMaxLegJoints}) {
     fail("it has " + std::to_string(joints.size()) + " joints of its own instead of 3 to " +

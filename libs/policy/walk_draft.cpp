@@ -8,6 +8,7 @@
 
 #include "common/constants.h"
 #include "common/error.h"
+#include "kinematics/leg_joints.h"
 
 namespace nao {
 namespace {
@@ -40,16 +41,6 @@ action: {{scale: 0.25}}
 joints:
 )";
 
-std::vector<int> own_joints(const LegDescription& leg, const LegDescription& other) {
-  std::vector<int> own;
-  for (const int joint : leg.joints) {
-    if (std::find(other.joints.begin(), other.joints.end(), joint) == other.joints.end()) {
-      own.push_back(joint);
-    }
-  }
-  return own;
-}
-
 }  // namespace
 
 std::string draft_walk_policy(const RobotModel& model) {
@@ -59,7 +50,7 @@ std::string draft_walk_policy(const RobotModel& model) {
   double height = 0;
   for (size_t i = 0; i < 2; ++i) {
     const LegDescription& leg = model.legs()[i];
-    const std::vector<int> joints = own_joints(leg, model.legs()[1 - i]);
+    const std::vector<int> joints = own_leg_joints(model, i);
     if (joints.empty()) throw ModelError(model.name() + " has a leg without joints of its own");
     const int hip = model.joints()[static_cast<size_t>(joints.front())].child_link;
     height = poses[static_cast<size_t>(hip)].translation().z() -
