@@ -36,8 +36,9 @@ from onnx_writer import read_mlp, write_mlp  # noqa: E402
 CHECKPOINT = "training.pt"
 # Rollouts in which the normalization of a policy without a checkpoint is measured. Chosen: several episodes of all robots.
 MEASURED_ROLLOUTS = 8
-# Weights of the reward's terms (tools/policy-train/reward_terms.h), for a second. Chosen; those for steps (gait, clearance)
-# weigh as much as the velocity: with a quarter of them a T1 shuffles, and falls ten times a minute after 13 million steps.
+# Weights of the reward's terms (tools/policy-train/reward_terms.h), for a second. Chosen; steps (gait, clearance) weigh as much
+# as the velocity: with a quarter for steps and twice for the velocity a T1 shuffled, and fell ten times a minute after 13
+# million steps.
 WEIGHTS = {
     "walk": {"velocity_tracking": 3.0, "mean_velocity": 1.5, "turn_tracking": 1.0, "alive": 0.5, "gait": 2.0,
              "clearance": 20.0, "tilt": -5.0, "height": -20.0, "vertical_speed": -0.5, "tilt_rate": -0.05, "torque": -0.3,
