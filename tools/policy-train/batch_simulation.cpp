@@ -72,7 +72,7 @@ void BatchSimulation::step(const BatchArrays& arrays) {
   });
   // In this order whatever thread stepped them.
   for (const auto& environment : environments_) {
-    if (const auto& outcome = environment->push_outcome()) {
+    if (const auto& outcome = environment->pushes().outcome()) {
       pushes_.learn(outcome->push, outcome->fallen);
     }
   }

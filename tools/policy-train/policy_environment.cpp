@@ -34,10 +34,6 @@ constexpr double kFastRestShare = 0.5;
 constexpr double kInPlaceShare = 0.3;
 // Time constant of the mean error of the velocity, s. Chosen: most of a gait cycle.
 constexpr double kMeanTime = 0.5;
-// Time after which a push has thrown a robot over or not, and mean time from then until the next
-// one, s. Chosen: falls take less than 1.5 s.
-constexpr double kPushDecided = 1.5;
-constexpr double kPushTime = 0.5;
 // Share of the episodes that begin with a push, and the greatest time from it until the policy
 // moves the robot, s. Chosen: nao-motion lets a policy catch a robot 20 to 60 ms after a push.
 constexpr double kPushedShare = 0.4;
@@ -101,7 +97,7 @@ void PolicyEnvironment::reset(const StepOutput& output) {
   }
   builder_.reset();
   num_steps_ = 0;
-  last_push_.reset();
+  pushes_.begin_episode();
   recovery_end_ = 0;
   cycles_since_outward_ = 0;
   input_.command = options_.command.value_or(Eigen::Vector3d::Zero());
@@ -205,7 +201,7 @@ void PolicyEnvironment::step(const float* action, const StepOutput& output) {
     action_[i] = std::isfinite(action[i]) ? std::clamp(action[i], -clip, clip) : 0.0F;
   }
   set_targets();
-  if (options_.push > 0 && !last_push_ && random_.uniform() < manifest.period / kPushTime) push();
+  if (options_.push > 0 && pushes_.is_due(manifest.period, random_)) push();
   for (int i = 0; i < ticks_per_step_; ++i) step_tick();
   ++num_steps_;
   sample(after_);
@@ -220,7 +216,7 @@ void PolicyEnvironment::step(const float* action, const StepOutput& output) {
                                          kFallenHeight * start_->torso.translation().z());
   calc_reward_terms(*options_.model, manifest, *start_, before_, after_, input_.command,
                     builder_.phase(), fallen, output.reward_terms);
-  judge_push(fallen);
+  pushes_.judge(time(), fallen);
   *output.terminated = fallen ? 1 : 0;
   *output.truncated = !fallen && num_steps_ >= max_steps_ ? 1 : 0;
   std::swap(before_, after_);
@@ -278,20 +274,11 @@ void PolicyEnvironment::draw_goal() {
 void PolicyEnvironment::push() {
   const bool is_stepping =
       options_.manifest->phase_frequency > 0 && !is_at_rest(*options_.manifest, input_.command);
-  last_push_ = pushes_.draw(is_stepping ? std::optional(builder_.phase()) : std::nullopt, random_);
-  push_time_ = num_steps_ * options_.manifest->period;
-  const double heading = heading_of(world_->robot(0).link_pose(0).linear());
   const Eigen::Vector2d impulse =
-      Eigen::Rotation2Dd(heading) * last_push_->impulse * options_.model->total_mass();
-  world_->push(0, 0, {impulse.x(), impulse.y(), 0});
-}
-
-void PolicyEnvironment::judge_push(bool fallen) {
-  push_outcome_.reset();
-  const double time = num_steps_ * options_.manifest->period;
-  if (!last_push_ || (!fallen && time < push_time_ + kPushDecided)) return;
-  push_outcome_ = {*last_push_, fallen};
-  last_push_.reset();
+      pushes_.push(is_stepping ? std::optional(builder_.phase()) : std::nullopt, time(), random_);
+  const Eigen::Rotation2Dd heading(heading_of(world_->robot(0).link_pose(0).linear()));
+  const Eigen::Vector2d in_world = heading * impulse * options_.model->total_mass();
+  world_->push(0, 0, {in_world.x(), in_world.y(), 0});
 }
 
 void PolicyEnvironment::sample(MotionSample& sample) const {

@@ -78,13 +78,8 @@ class PolicyEnvironment {
   /** One step of the policy. @param action  (manifest.num_actions()), finite: others count as 0. */
   void step(const float* action, const StepOutput& output);
 
-  /** A push, and whether it threw the robot over. */
-  struct PushOutcome {
-    PushSchedule::Push push;
-    bool fallen = false;
-  };
-  /** Of a push that was decided in the last step. */
-  const std::optional<PushOutcome>& push_outcome() const { return push_outcome_; }
+  /** Its outcome is of a push that was decided in the last step. */
+  const RobotPushes& pushes() const { return pushes_; }
 
  private:
   /** @param is_ready  In the ready posture. */
@@ -93,8 +88,8 @@ class PolicyEnvironment {
   void set_targets();
   void draw_goal();
   void push();
-  /** Decides whether the last push threw the robot over. */
-  void judge_push(bool fallen);
+  /** Time in the episode, s. */
+  double time() const { return num_steps_ * options_.manifest->period; }
   /** One tick of the simulation. Sent targets change as fast as the motors turn at most. */
   void step_tick();
   /** Steps with the targets that were sent last. @param duration  s. */
@@ -110,11 +105,7 @@ class PolicyEnvironment {
 
   EnvironmentOptions options_;
   Random random_;
-  const PushSchedule& pushes_;
-  /** The last push, until it is judged; and its time in the episode, s. */
-  std::optional<PushSchedule::Push> last_push_;
-  double push_time_ = 0;
-  std::optional<PushOutcome> push_outcome_;
+  RobotPushes pushes_;
   /** The velocity is 0 throughout this episode. */
   bool is_resting_ = false;
   std::unique_ptr<sim::World> world_;

@@ -19,6 +19,10 @@ constexpr double kTelling = 0.9;
 constexpr double kChange = 1.02;
 // Exponent by which directions in which less is withstood are pushed more often. Chosen.
 constexpr double kPreference = 3;
+// Time after which a push has thrown a robot over or not, and mean time from then until the next
+// one, s. Chosen: falls take less than 1.5 s.
+constexpr double kDecided = 1.5;
+constexpr double kPause = 0.5;
 
 }  // namespace
 
@@ -36,7 +40,7 @@ PushSchedule::Push PushSchedule::draw(std::optional<double> phase, Random& rando
   std::array<double, kNumDirections> shares{};
   double sum = 0;
   for (int i = 0; i < kNumDirections; ++i) {
-    const double impulse = impulses_[i * (kNumPhases + 1) + column];
+    const double impulse = impulses_[cell_of(i, column)];
     // Ahead and back are their own mirror images.
     const double share = i == 0 || i == kNumDirections - 1 ? 0.5 : 1;
     sum += share * std::pow(std::max(impulse, 1e-3), -kPreference);
@@ -45,7 +49,7 @@ PushSchedule::Push PushSchedule::draw(std::optional<double> phase, Random& rando
   const auto chosen = std::upper_bound(shares.begin(), shares.end(), sum * random.uniform());
   const int direction = std::min(kNumDirections - 1, static_cast<int>(chosen - shares.begin()));
   Push push;
-  push.cell = direction * (kNumPhases + 1) + column;
+  push.cell = cell_of(direction, column);
   push.fraction = random.uniform(kLeastFraction, kMostFraction);
   // Anywhere nearer to this direction than to the others.
   const double between = M_PI / (kNumDirections - 1);
@@ -59,6 +63,23 @@ void PushSchedule::learn(const Push& push, bool fallen) {
   if (push.fraction < kTelling) return;
   double& impulse = impulses_[push.cell];
   impulse = std::min(greatest_, fallen ? impulse / kChange : impulse * kChange);
+}
+
+bool RobotPushes::is_due(double period, Random& random) const {
+  return !last_ && random.uniform() < period / kPause;
+}
+
+Eigen::Vector2d RobotPushes::push(std::optional<double> phase, double time, Random& random) {
+  last_ = schedule_->draw(phase, random);
+  time_ = time;
+  return last_->impulse;
+}
+
+void RobotPushes::judge(double time, bool fallen) {
+  outcome_.reset();
+  if (!last_ || (!fallen && time < time_ + kDecided)) return;
+  outcome_ = {*last_, fallen};
+  last_.reset();
 }
 
 }  // namespace nao::policy_train
