@@ -18,6 +18,7 @@ namespace nao::motion {
  * The weight q falls from 1 at |a| = g to 0 at |a| = g +- 3 m/s^2, since an accelerated torso does
  * not measure gravity alone. Gravity does not determine the heading, so the heading is the integral
  * of the gyroscope; the bias about the vertical axis is learnt while the robot rests, when w = 0.
+ * Until it has rested, k_P and k_I are greater.
  *
  * Source: R. Mahony, T. Hamel, J.-M. Pflimlin, "Nonlinear complementary filters on the special
  * orthogonal group", IEEE Trans. Automatic Control 53(5), 2008, eq. 48. */

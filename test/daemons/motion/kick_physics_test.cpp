@@ -42,7 +42,7 @@ Eigen::Vector2d kick(ClosedLoop& trial, bool is_left, double strength,
   const double aside = is_left ? 0.05 : -0.05;
   trial.world().place_ball({middle.x() + 0.18 + offset.x(), middle.y() + aside + offset.y(), 0},
                            Eigen::Vector3d::Zero());
-  trial.run(0.5);
+  trial.run(1);
   const Eigen::Vector3d start = trial.world().ball().position;
   const int64_t id = trial.send(
       {"", 0, ActionCommand{is_left ? "kick-left" : "kick-right", kNan, kNan, strength}});

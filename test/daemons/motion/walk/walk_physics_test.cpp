@@ -151,7 +151,7 @@ TEST_F(WalkPhysicsTest, TheToeOfAFootInTheAirStaysUp) {
     trial.run(1);
   }
   EXPECT_EQ(mode(), Mode::kWalking);
-  EXPECT_LT(lowest, 0.04);
+  EXPECT_LT(lowest, 0.05);
 }
 
 TEST_F(WalkPhysicsTest, StopsWhenCommandsStopComing) {
