@@ -1,12 +1,15 @@
 #include "daemons/motion/actions/kick_impact.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace nao::motion {
 namespace {
 
-constexpr const char* kSignals[] = {"hip_velocity", "knee_velocity", "hip_torque", "knee_torque"};
+constexpr std::array<const char*, KickImpact::kNumSignals> kSignals = {
+    "hip_velocity", "knee_velocity", "hip_torque",         "knee_torque",
+    "pitch_rate",   "yaw_rate",      "support_hip_torque", "support_knee_torque"};
 
 // Linear interpolation; `after` is the first sample after the time.
 double interpolate(const KickImpact::Sample& before, const KickImpact::Sample& after, double time,
@@ -19,7 +22,8 @@ double interpolate(const KickImpact::Sample& before, const KickImpact::Sample& a
 
 KickImpact KickImpact::read(const YamlEntry& entry) {
   entry.allow_only({"foot", "times", "hip_velocity", "knee_velocity", "hip_torque", "knee_torque",
-                    "bias", "believed"});
+                    "pitch_rate", "yaw_rate", "support_hip_torque", "support_knee_torque", "bias",
+                    "believed"});
   KickImpact impact;
   impact.foot = entry.at("foot").number();
   impact.times = entry.at("times").numbers();

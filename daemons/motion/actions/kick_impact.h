@@ -8,14 +8,15 @@
 
 namespace nao::motion {
 
-/** Tells from the joints whether a kicking foot met a ball, which slows it down.
+/** Tells from joints and gyroscope whether a kicking foot met a ball, which slows it down.
  *
- * Score = bias + sum of weights times hip pitch's and knee's velocity, rad/s, and torque, N m, at
- * fixed times after the foot has passed a line on its way forward. Fitted for one kick at its own
- * strength; the kick's file has the numbers. */
+ * Score = bias + sum of weights times signals at fixed times after the foot has passed a line on
+ * its way forward. Fitted for one kick at its own strength; the kick's file has the numbers. */
 struct KickImpact {
-  /** Velocity of the hip's pitch joint and of the knee, torque of both. */
-  static constexpr int kNumSignals = 4;
+  /** Of the kicking leg the velocities of the hip's pitch joint and of the knee, rad/s, and the
+   * torques of both, N m; of the torso the angular velocities about y and z, rad/s, the latter
+   * positive towards the kicking side; of the supporting leg the two torques, N m. */
+  static constexpr int kNumSignals = 8;
 
   /** The line: the sole's origin is so far ahead of the torso's, m. */
   double foot = 0;

@@ -52,15 +52,19 @@ void KickWatch::start(const MotionContext& context, double strike_end) {
 void KickWatch::step(const MotionContext& context, double time) {
   if (impact_ != nullptr && time > strike_end_ - kRecordTime && time < strike_end_ + kRecordAfter) {
     const Leg leg = is_left_ ? Leg::kLeft : Leg::kRight;
-    const int hip = legs_->motors(leg)[legs_->roles(leg).hip_pitch];
-    const int knee = legs_->motors(leg)[legs_->roles(leg).knee];
+    const Leg support = is_left_ ? Leg::kRight : Leg::kLeft;
+    const auto hip = [&](Leg side) { return legs_->motors(side)[legs_->roles(side).hip_pitch]; };
+    const auto knee = [&](Leg side) { return legs_->motors(side)[legs_->roles(side).knee]; };
     const Sensors& sensors = context.sensors;
+    const Eigen::Vector3d& rate = sensors.gyroscope_torso;
     const Eigen::Isometry3d& sole =
         is_left_ ? context.kinematics.left_sole() : context.kinematics.right_sole();
     samples_.push_back({time,
                         sole.translation().x(),
-                        {sensors.velocity[hip], sensors.velocity[knee], sensors.torque[hip],
-                         sensors.torque[knee]}});
+                        {sensors.velocity[hip(leg)], sensors.velocity[knee(leg)],
+                         sensors.torque[hip(leg)], sensors.torque[knee(leg)], rate.y(),
+                         is_left_ ? rate.z() : -rate.z(), sensors.torque[hip(support)],
+                         sensors.torque[knee(support)]}});
   }
   if (time < strike_end_ + kSettleTime) return;
   if (struck_utime_ == 0) struck_utime_ = context.state.utime;
