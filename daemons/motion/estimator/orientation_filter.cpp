@@ -16,11 +16,13 @@ constexpr double kTiltGain = 0.5;
 // Integral gain k_I, 1/s^2. Chosen: below k_P^2 / 4 = 0.0625, above which the correction of tilt
 // and bias oscillates.
 constexpr double kBiasGain = 0.02;
-// Both until the bias has been learnt at rest: a robot may walk before it has ever rested, and its
+// Both until the bias has been measured at rest: a robot may walk before it has ever rested, and its
 // tilt is wrong by the bias over k_P. Chosen: of 200 used robots (real.yaml, seeds 501-700) that
 // walk after a second of standing, 192 walk sideways with the gains above and 199 with these.
 constexpr double kFirstTiltGain = 1.0;
 constexpr double kFirstBiasGain = 0.1;
+// Time of measuring at rest after which they end, s. Chosen: averages ten measurements.
+constexpr double kFirstRest = 0.1;
 // Deviation of |a| from gravity at which the weight q of the accelerometer reaches 0, m/s^2.
 // Chosen: a third of gravity.
 constexpr double kZeroWeightDeviation = 3.0;
@@ -63,8 +65,9 @@ void OrientationFilter::update(const Eigen::Vector3d& gyroscope,
     // Axis, scaled with the sine of the angle, about which the estimate must rotate in the torso's
     // axes: measured times estimated vertical (Mahony's error term).
     const Eigen::Vector3d error = (accelerometer / norm).cross(up_in_torso);
-    correction = (has_learnt_bias() ? kTiltGain : kFirstTiltGain) * weight * error;
-    bias_ -= (has_learnt_bias() ? kBiasGain : kFirstBiasGain) * weight * error * dt;
+    const bool has_rested = learnt_time_ >= kFirstRest;
+    correction = (has_rested ? kTiltGain : kFirstTiltGain) * weight * error;
+    bias_ -= (has_rested ? kBiasGain : kFirstBiasGain) * weight * error * dt;
   }
   // Clamped: a bias that runs away would turn the robot's heading without end.
   bias_ = bias_.cwiseMax(-kMaxBias).cwiseMin(kMaxBias);
