@@ -16,9 +16,9 @@ constexpr double kTiltGain = 0.5;
 // Integral gain k_I, 1/s^2. Chosen: below k_P^2 / 4 = 0.0625, above which the correction of tilt
 // and bias oscillates.
 constexpr double kBiasGain = 0.02;
-// Both until the bias has been measured at rest: a robot may walk before it has ever rested, and its
-// tilt is wrong by the bias over k_P. Chosen: of 200 used robots (real.yaml, seeds 501-700) that
-// walk after a second of standing, 192 walk sideways with the gains above and 199 with these.
+// Both until the bias has been measured at rest: a robot may walk before it has ever rested, and
+// its tilt is wrong by the bias over k_P. Chosen: of 200 used robots (real.yaml, seeds 501-700)
+// that walk after a second of standing, 192 walk sideways with the gains above and 199 with these.
 constexpr double kFirstTiltGain = 1.0;
 constexpr double kFirstBiasGain = 0.1;
 // Time of measuring at rest after which they end, s. Chosen: averages ten measurements.

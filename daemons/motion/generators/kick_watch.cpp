@@ -59,12 +59,12 @@ void KickWatch::step(const MotionContext& context, double time) {
     const Eigen::Vector3d& rate = sensors.gyroscope_torso;
     const Eigen::Isometry3d& sole =
         is_left_ ? context.kinematics.left_sole() : context.kinematics.right_sole();
-    samples_.push_back({time,
-                        sole.translation().x(),
-                        {sensors.velocity[hip(leg)], sensors.velocity[knee(leg)],
-                         sensors.torque[hip(leg)], sensors.torque[knee(leg)], rate.y(),
-                         is_left_ ? rate.z() : -rate.z(), sensors.torque[hip(support)],
-                         sensors.torque[knee(support)]}});
+    samples_.push_back(
+        {time,
+         sole.translation().x(),
+         {sensors.velocity[hip(leg)], sensors.velocity[knee(leg)], sensors.torque[hip(leg)],
+          sensors.torque[knee(leg)], rate.y(), is_left_ ? rate.z() : -rate.z(),
+          sensors.torque[hip(support)], sensors.torque[knee(support)]}});
   }
   if (time < strike_end_ + kSettleTime) return;
   if (struck_utime_ == 0) struck_utime_ = context.state.utime;
