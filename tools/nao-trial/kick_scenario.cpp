@@ -78,11 +78,9 @@ std::vector<RunResult> run_kick(const ScenarioOptions& options, uint64_t seed) {
   Eigen::Vector2d ball = seen + Eigen::Vector2d(trial.random(-range.x(), range.x()),
                                                 trial.random(-range.y(), range.y()));
   // A ball does not lie in the foot.
-  double toe = 0;
-  for (const Eigen::Vector2d& corner : trial.model().left_sole_outline()) {
-    toe = std::max(toe, corner.x());
-  }
-  ball.x() = std::max(ball.x(), toe + options.trial.scene.ball->radius);
+  Eigen::AlignedBox2d sole_box;
+  for (const Eigen::Vector2d& corner : trial.model().left_sole_outline()) sole_box.extend(corner);
+  ball.x() = std::max(ball.x(), sole_box.max().x() + options.trial.scene.ball->radius);
   // Chosen: past the foot's width, and past where the strike ends.
   if (is_beside && trial.random(0, 1) < 0.5)
     ball.x() += trial.random(0.15, 0.4);

@@ -59,7 +59,7 @@ TEST(StateEstimator, LearnsABiasAboveTheAngularVelocityOfARest) {
   StateEstimator estimator(nao_model());
   Sensors sensors = standing("StandInit", 0);
   sensors.gyroscope_torso = {0.01, 0.07, -0.02};
-  for (int i = 0; i < 200; ++i) estimator.update(sensors, 0.01);
+  for (int i = 0; i < 170; ++i) estimator.update(sensors, 0.01);
   EXPECT_NEAR(estimator.state().angular_velocity_torso.norm(), 0, 1e-3);
   // Once it is known, a slow turn is no bias.
   sensors.gyroscope_torso.z() += 0.07;
