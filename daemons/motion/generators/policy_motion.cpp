@@ -39,7 +39,7 @@ constexpr double kNearDefault = 0.2;
 // A robot that was pushed steps in place until its stance is the default one, for at most so many
 // gait cycles. Measured: with its feet apart the next push throws it over.
 constexpr double kLongestRecoveryCycles = 6;
-// A get-up ends when the torso has been upright, rad, for so long, s.
+// A get-up ends, and a robot stands, when the torso has been upright, rad, for so long, s.
 constexpr double kUpright = 0.25;
 constexpr double kUprightTime = 0.5;
 // s without weight on any foot after which the robot has been lifted: longer than any hop.
@@ -146,11 +146,12 @@ MotionGenerator::Phase PolicyMotion::step(const MotionContext& context, JointTar
     if (is_finishing_) path.finish();
     const Phase phase = path.step(context, targets);
     if (phase == Phase::kRunning) return phase;
+    if (stage_ == Stage::kEnding && !has_failed_ && has_ended_standing(context.state)) {
+      return Phase::kDone;
+    }
     if (phase == Phase::kFailed && !has_failed_) reason_ = path.reason();
     if (phase == Phase::kFailed) return phase;
-    if (stage_ == Stage::kEnding) {
-      return has_failed_ ? Phase::kFailed : Phase::kDone;
-    }
+    if (stage_ == Stage::kEnding) return has_failed_ ? Phase::kFailed : Phase::kDone;
     if (is_finishing_) return Phase::kDone;
     approach(context, targets);
     return Phase::kRunning;
@@ -212,7 +213,7 @@ bool PolicyMotion::run(const MotionContext& context, JointTargets& targets) {
     targets.position[i] = other[i] + share * (targets.position[i] - other[i]);
   }
   if (is_fading) return time_ < kFadeTime;
-  if (is_over(context)) {
+  if (is_over(context, targets)) {
     stage_ = Stage::kFading;
     time_ = 0;
   }
@@ -225,8 +226,8 @@ void PolicyMotion::steer(const MotionContext& context) {
   if (is_recovering_) {
     const double cycles = time_ * limits.phase_frequency;
     is_recovering_ =
-        cycles < kRecoveryCycles || (cycles < kLongestRecoveryCycles && !is_finishing_ &&
-                                     !is_near_default(limits, context.sensors.position));
+        cycles < kRecoveryCycles ||
+        (cycles < kLongestRecoveryCycles && !is_near_default(limits, context.sensors.position));
     velocity_ = kStepInPlace;
     return;
   }
@@ -241,15 +242,26 @@ void PolicyMotion::steer(const MotionContext& context) {
   velocity_ = ramp_command(velocity_, goal, context.dt);
 }
 
-bool PolicyMotion::is_over(const MotionContext& context) {
+bool PolicyMotion::has_ended_standing(const RobotState& state) const {
+  return kind() == Kind::kWalk && end_->reason().code == "posture-not-reached" &&
+         state.left_foot_carries && state.right_foot_carries && tilt_of(state) < kUpright;
+}
+
+bool PolicyMotion::is_over(const MotionContext& context, const JointTargets& targets) {
   const RobotState& state = context.state;
   switch (kind()) {
     case Kind::kWalk: {
       time_at_rest_ = velocity_.isZero(0) ? time_at_rest_ + context.dt : 0;
+      const bool is_near = is_near_default(*policy_->manifest, context.sensors.position);
       const bool stands = state.left_foot_carries && state.right_foot_carries &&
-                          state.velocity_torso_in_heading.head<2>().norm() < kStill &&
-                          is_near_default(*policy_->manifest, context.sensors.position);
-      return time_at_rest_ > kLongestStopTime || (time_at_rest_ > kStopTime && stands);
+                          state.velocity_torso_in_heading.head<2>().norm() < kStill && is_near;
+      if (time_at_rest_ > kStopTime && stands) return true;
+      if (time_at_rest_ <= kLongestStopTime) return false;
+      if (is_near || has_closed_stance_ || !policy_->manifest->recovery_margin) return true;
+      // Feet on the ground stay where they are: push recovery steps in place until they are closer.
+      has_closed_stance_ = true;
+      begin_recovery(context.state, targets);
+      return false;
     }
     case Kind::kGetUp:
       time_at_rest_ =

@@ -61,7 +61,9 @@ class PolicyMotion : public MotionGenerator {
   void steer(const MotionContext& context);
   /** Whether the motion may end now: a walk that stands, a get-up that is up, an action whose time
    * is over. */
-  bool is_over(const MotionContext& context);
+  bool is_over(const MotionContext& context, const JointTargets& targets);
+  /** The ready posture was not reached, since the soles of the standing robot do not slide. */
+  bool has_ended_standing(const RobotState& state) const;
   void record();
   PolicyInput input_of(const MotionContext& context) const;
 
@@ -75,6 +77,8 @@ class PolicyMotion : public MotionGenerator {
   bool is_finishing_ = false;
   /** Steps in place after a push. */
   bool is_recovering_ = false;
+  /** Has stepped in place at its end, since its feet were too far apart. */
+  bool has_closed_stance_ = false;
   /** Time in this stage, s; since the last walk command; for which the end's condition holds; and
    * without a foot on the ground. */
   double time_ = 0;
