@@ -37,12 +37,12 @@ constexpr double kCarryingStiffness = 0.6;
 
 /** @throws ConfigError  if there is no policy of that name that walks. One that cannot be used is
  * refused when it shall walk. */
-const Policy& find_walk_policy(const std::vector<Policy>& policies, const std::string& name) {
+const Policy& find_policy(const std::vector<Policy>& policies, const std::string& name) {
   std::string known;
   for (const Policy& policy : policies) {
     if (policy.name == name) {
-      if (policy.manifest && policy.manifest->kind != PolicyManifest::Kind::kWalk) {
-        throw ConfigError("the policy " + name + " does not walk; start it as an action");
+      if (policy.manifest && policy.manifest->kind == PolicyManifest::Kind::kAction) {
+        throw ConfigError("the policy " + name + " is an action; start it as one");
       }
       return policy;
     }
@@ -84,9 +84,12 @@ MotionFactory::MotionFactory(const RobotModel& model, const MotionOptions& optio
     return manifest.recovery_margin.has_value();
   });
   if (gait_ || !policies_.empty()) legs_.emplace(model);
-  if (!options.walk_policy.empty()) {
-    walk_policy_ = &find_walk_policy(policies_, options.walk_policy);
-  } else if (!gait_) {
+  if (!options.policy.empty()) {
+    const Policy& policy = find_policy(policies_, options.policy);
+    const bool gets_up = policy.manifest && policy.manifest->kind == PolicyManifest::Kind::kGetUp;
+    (gets_up ? get_up_policy_ : walk_policy_) = &policy;
+  }
+  if (walk_policy_ == nullptr && !gait_) {
     walk_policy_ = find_policy(policies_, [](const PolicyManifest& manifest) {
       return manifest.kind == PolicyManifest::Kind::kWalk && !manifest.recovery_margin;
     });
@@ -177,7 +180,11 @@ std::unique_ptr<MotionGenerator> MotionFactory::make_stand_path() const {
   return make_posture_path(*stand_);
 }
 
-std::unique_ptr<MotionGenerator> MotionFactory::make_get_up(int num_tries) const {
+std::unique_ptr<MotionGenerator> MotionFactory::make_get_up(int num_tries) {
+  // What a policy did not manage at once, the transitions do.
+  if (get_up_policy_ != nullptr && get_up_policy_->find_fault().empty() && num_tries == 0) {
+    return make_policy_motion(*get_up_policy_, {});
+  }
   return std::make_unique<PosturePathMotion>(graph_, *stand_, options_->default_speed, false,
                                              num_tries);
 }
@@ -275,7 +282,8 @@ MotionPlan MotionFactory::plan_request(const StopCommand& /*stop*/,
 std::unique_ptr<MotionGenerator> MotionFactory::make_policy_motion(const Policy& policy,
                                                                    const WalkCommand& command) {
   return std::make_unique<PolicyMotion>(*model_, policy, make_stand_path(), make_stand_path(),
-                                        command, [this] { walk_policy_ = nullptr; });
+                                        command,
+                                        [this] { walk_policy_ = get_up_policy_ = nullptr; });
 }
 
 MotionPlan MotionFactory::plan_policy(const Policy& policy, const Situation& situation) {
@@ -291,6 +299,7 @@ MotionPlan MotionFactory::plan_policy(const Policy& policy, const Situation& sit
       if (const auto obstacle = find_policy_obstacle(situation)) return *obstacle;
       break;
     case PolicyManifest::Kind::kGetUp:
+      get_up_policy_ = &policy;
       break;
   }
   return make_policy_motion(policy, {});

@@ -60,7 +60,7 @@ class MotionFactory {
   std::unique_ptr<MotionGenerator> make_stand_path() const;
   /** The same after a fall. @param num_tries  Get-ups before, after which it fell again at once:
    * another motion is tried. */
-  std::unique_ptr<MotionGenerator> make_get_up(int num_tries) const;
+  std::unique_ptr<MotionGenerator> make_get_up(int num_tries);
 
   /** Steps of a standing robot that was pushed, until it stands again; nullptr if it must not step,
    * or need not. @param targets  As sent in the last step. */
@@ -145,6 +145,7 @@ class MotionFactory {
   std::vector<Policy> policies_;
   /** The one that walks, as a robot without a gait does from the start; nullptr: the gait. */
   const Policy* walk_policy_ = nullptr;
+  const Policy* get_up_policy_ = nullptr;
   /** Push recovery; nullptr: the gait, if there is one. */
   const Policy* recovery_ = nullptr;
   std::map<std::string, ActionPlanner> actions_;

@@ -44,8 +44,8 @@ struct MotionOptions {
   std::optional<Gait> gait;
   /** Transitions between states of the body; nothing: as in the robot's transitions.yaml. */
   std::optional<TransitionGraph> transitions;
-  /** Policy that walks instead of the gait; empty: none. */
-  std::string walk_policy;
+  /** Policy that walks instead of the gait, or gets up instead of the transitions; empty: none. */
+  std::string policy;
   /** How the robot differs from its model; nothing: not at all. */
   std::optional<Calibration> calibration;
 

@@ -23,8 +23,9 @@ int nao::motion::run_motion(int argc, char** argv) {
   nao::add_model_option(app, model_name);
   app.add_option("--default-speed", options.default_speed,
                  "Speed of the robot's own motions, fraction of the maximum");
-  app.add_option("--walk-policy", options.walk_policy,
-                 "Policy that walks instead of the gait, a folder in policies/ of the robot");
+  app.add_option(
+      "--policy", options.policy,
+      "Policy that walks, or gets up, instead of the robot's own motions: a folder in policies/");
   app.add_option("--calibration", calibration_file,
                  "File of the robot's own joint and sensor errors, as nao calibrate writes it");
   app.add_flag("!--no-get-up", options.gets_up, "After a fall, remain lying until a command");

@@ -160,8 +160,8 @@ int main(int argc, char** argv) {
                      "Calibrate each robot before its run, standing in so many directions (0: not)")
         ->range(0, 8);
     command->add_option(
-        "--policy", options.trial.motion.walk_policy,
-        "Policy that walks instead of the gait, a folder in policies/ of the robot");
+        "--policy", options.trial.motion.policy,
+        "Policy that walks, or gets up, instead of the robot's own motions: a folder in policies/");
     command->add_flag("--ideal", options.trial.is_ideal,
                       "No noise or latency either: --disturbances none");
     command->add_flag("--verbose", is_verbose, "Print a line for each run");

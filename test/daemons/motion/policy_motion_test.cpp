@@ -28,7 +28,7 @@ class PolicyMotionTest : public testing::Test {
     options.model = robot_.load();
     options.scene = SceneFile::load(std::filesystem::path(NAO_TEST_DATA) / "scenes" / "empty.yaml");
     options.is_ideal = true;
-    options.motion.walk_policy = walk_policy;
+    options.motion.policy = walk_policy;
     loop_ = std::make_unique<ClosedLoop>(options, 1);
     loop_->on_tick([this] { watch_targets(); });
     loop_->run(1);
@@ -259,7 +259,23 @@ TEST_F(PolicyMotionTest, AGetUpThatFailsIsFollowedByTheRobotsOwn) {
   EXPECT_TRUE(loop_->run_until([&] { return loop_->torso_tilt() < 0.1; }, 30));
 }
 
-TEST_F(PolicyMotionTest, AnUnknownWalkPolicyNamesTheKnownOnes) {
+TEST_F(PolicyMotionTest, AFallenRobotGetsUpByAPolicyFirst) {
+  robot_.add("lie", "kind: get-up\nduration: 1\n", kArm, 4, {OnnxFile::constant(4, {0.3F})});
+  begin("lie");
+  const auto arm = static_cast<size_t>(loop_->model().find_motor("Left_Shoulder_Pitch"));
+  const double angle = loop_->targets()[arm] + 0.3;
+  double time = 0;
+  loop_->on_tick([&] {
+    if (std::abs(loop_->targets()[arm] - angle) < 1e-6) time += loop_->period();
+  });
+  loop_->world().push(0, 0, {60, 0, 0});
+  EXPECT_TRUE(loop_->run_until([&] { return loop_->torso_tilt() > 1.3; }, 5));
+  EXPECT_TRUE(loop_->run_until([&] { return loop_->torso_tilt() < 0.1; }, 30));
+  EXPECT_GT(time, 0.2);
+  EXPECT_LT(time, 1.1);
+}
+
+TEST_F(PolicyMotionTest, AnUnknownPolicyNamesTheKnownOnes) {
   robot_.add("hold", kWalk, kKnees, 5, {OnnxFile::constant(5, {0, 0})});
   try {
     begin("walk");
@@ -284,7 +300,7 @@ ClosedLoopOptions t1_options(const std::string& disturbances) {
  * @return The distance, m; nothing if it fell, or did not stop as it should. */
 std::optional<double> walk_trained(const std::string& disturbances, double vx, uint64_t seed) {
   ClosedLoopOptions options = t1_options(disturbances);
-  options.motion.walk_policy = "trained-walk";
+  options.motion.policy = "trained-walk";
   ClosedLoop loop(options, seed);
   loop.run(1);
   const int64_t id = loop.hold_walk({vx, 0, 0});
@@ -369,7 +385,7 @@ TEST(PolicyExample, WalksOnAfterAPushToTheSideAtAnyTime) {
   for (int i = 0; i < 6; ++i) {
     for (const double side : {-1, 1}) {
       ClosedLoopOptions options = t1_options("default");
-      options.motion.walk_policy = "trained-balance";
+      options.motion.policy = "trained-balance";
       ClosedLoop loop(options, 41);
       loop.run(0.5);
       loop.hold_walk({0.3, 0, 0});
@@ -387,7 +403,7 @@ TEST(PolicyRecordTest, HasWhatTheNetworkSawAndDid) {
             {{{1, 0, 0, 0}, {0.25F}, ""}});
   const auto model = robot.load();
   MotionOptions options;
-  options.walk_policy = "nod";
+  options.policy = "nod";
   MotionCore core(*model, options);
   PerfectRobot body;
   body.settle(core);
