@@ -21,6 +21,10 @@ constexpr double kFallenTilt = 0.6;
 constexpr double kFallenHeight = 0.6;
 // Time for which a lying robot comes to rest, s. Chosen.
 constexpr double kLyingTime = 1;
+// Share of the get-ups that begin in the air, tilted between upright and lying, with the joints at
+// most this far from the ready posture, rad. Chosen: what never stands does not learn its worth.
+constexpr double kTiltedShare = 0.5;
+constexpr double kTiltedSpread = 1.2;
 // Share of the commanded velocities that are 0, and of those with a single component. Chosen: a
 // phone's sticks give such ones mostly.
 constexpr double kRestShare = 0.2;
@@ -86,17 +90,21 @@ void PolicyEnvironment::reset(const StepOutput& output) {
   std::fill(action_.begin(), action_.end(), 0.0F);
   set_targets();
   const PolicyManifest& manifest = *options_.manifest;
-  const bool is_get_up = manifest.kind == PolicyManifest::Kind::kGetUp;
   // Only what has a phase can be push recovery.
-  const bool is_pushed = options_.push > 0 && !is_get_up && manifest.phase_frequency > 0 &&
+  const bool is_pushed = options_.push > 0 && !is_get_up() && manifest.phase_frequency > 0 &&
                          random_.uniform() < kPushedShare;
-  if (is_get_up) {
+  if (is_get_up() && random_.uniform() < kTiltedShare) {
+    place_tilted();
+  } else if (is_get_up()) {
     lay_down();
   } else {
     place(is_pushed);
   }
   builder_.reset();
-  num_steps_ = 0;
+  // The first episodes of robots that never fall end at different times.
+  num_steps_ =
+      is_get_up() && is_first_episode_ ? static_cast<int>(random_.uniform(0, max_steps_)) : 0;
+  is_first_episode_ = false;
   pushes_.begin_episode();
   recovery_end_ = 0;
   cycles_since_outward_ = 0;
@@ -177,6 +185,10 @@ void PolicyEnvironment::hold(double duration) {
 }
 
 void PolicyEnvironment::step_tick() {
+  if (is_get_up() && assist_.share() > 0) {
+    const double impulse = options_.model->total_mass() * kGravity * world_->options().period();
+    world_->push(0, 0, {0, 0, assist_.share() * impulse});
+  }
   position_.assign(targets_.position.begin(), targets_.position.end());
   limiter_.limit(sent_, world_->options().period(), position_);
   std::swap(sent_, position_);
@@ -184,6 +196,17 @@ void PolicyEnvironment::step_tick() {
   limited.position = Eigen::VectorXd::Map(sent_.data(), static_cast<long>(sent_.size()));
   world_->set_targets(0, limited);
   world_->step_tick();
+}
+
+void PolicyEnvironment::place_tilted() {
+  const Posture posture =
+      sim::draw_posture(*options_.model, random_.uniform(0, kTiltedSpread),
+                        [this](double low, double high) { return random_.uniform(low, high); });
+  const double side = random_.uniform(-M_PI, M_PI);
+  const Eigen::Vector3d axis(std::cos(side), std::sin(side), 0);
+  const Eigen::Quaterniond tilted(Eigen::AngleAxisd(random_.uniform(0, M_PI / 2), axis));
+  world_->place_robot(0, &posture, Eigen::Vector3d::Zero(), &tilted);
+  sent_ = posture.position;
 }
 
 void PolicyEnvironment::lay_down() {
@@ -209,16 +232,19 @@ void PolicyEnvironment::step(const float* action, const StepOutput& output) {
   error.z() = (after_.torso.linear() * after_.angular_velocity).z() - input_.command.z();
   after_.velocity_error =
       before_.velocity_error + (error - before_.velocity_error) * manifest.period / kMeanTime;
-  const bool is_get_up = manifest.kind == PolicyManifest::Kind::kGetUp;
+  after_.assist = assist_.share();
   const double up = after_.torso.linear()(2, 2);
-  const bool fallen = !is_get_up && (up < std::cos(manifest.fall_tilt.value_or(kFallenTilt)) ||
-                                     after_.torso.translation().z() <
-                                         kFallenHeight * start_->torso.translation().z());
+  const bool fallen = !is_get_up() && (up < std::cos(manifest.fall_tilt.value_or(kFallenTilt)) ||
+                                       after_.torso.translation().z() <
+                                           kFallenHeight * start_->torso.translation().z());
   calc_reward_terms(*options_.model, manifest, *start_, before_, after_, input_.command,
                     builder_.phase(), fallen, output.reward_terms);
   pushes_.judge(time(), fallen);
   *output.terminated = fallen ? 1 : 0;
   *output.truncated = !fallen && num_steps_ >= max_steps_ ? 1 : 0;
+  if (is_get_up() && *output.truncated != 0) {
+    assist_.learn(output.reward_terms[static_cast<size_t>(RewardTerm::kStanding)] > 0);
+  }
   std::swap(before_, after_);
   if (*output.terminated != 0 || *output.truncated != 0) {
     observe(output);

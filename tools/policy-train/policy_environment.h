@@ -16,6 +16,7 @@
 #include "robot_model/target_limiter.h"
 #include "sim/disturbances.h"
 #include "sim/world.h"
+#include "tools/policy-train/assist_schedule.h"
 #include "tools/policy-train/push_schedule.h"
 #include "tools/policy-train/reward_terms.h"
 
@@ -73,7 +74,7 @@ class PolicyEnvironment {
   PolicyEnvironment(const EnvironmentOptions& options, const PushSchedule& pushes, uint64_t seed);
 
   /** Begins an episode: the robot at its default angles, at rest, or in its ready posture and
-   * pushed, as when nao-motion lets a policy catch it; a get-up's robot lies. */
+   * pushed, as when nao-motion lets a policy catch it; a get-up's robot lies, or begins tilted. */
   void reset(const StepOutput& output);
   /** One step of the policy. @param action  (manifest.num_actions()), finite: others count as 0. */
   void step(const float* action, const StepOutput& output);
@@ -84,10 +85,12 @@ class PolicyEnvironment {
  private:
   /** @param is_ready  In the ready posture. */
   void place(bool is_ready);
+  void place_tilted();
   void lay_down();
   void set_targets();
   void draw_goal();
   void push();
+  bool is_get_up() const { return options_.manifest->kind == PolicyManifest::Kind::kGetUp; }
   /** Time in the episode, s. */
   double time() const { return num_steps_ * options_.manifest->period; }
   /** One tick of the simulation. Sent targets change as fast as the motors turn at most. */
@@ -126,6 +129,8 @@ class PolicyEnvironment {
   MotionSample after_;
   int ticks_per_step_ = 1;
   int num_steps_ = 0;
+  bool is_first_episode_ = true;
+  AssistSchedule assist_;
   /** Steps of this episode until which a robot that was pushed steps in place. */
   int recovery_end_ = 0;
   Kinematics kinematics_;

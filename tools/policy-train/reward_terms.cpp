@@ -19,6 +19,10 @@ constexpr double kTurnLength = 0.5;
 constexpr double kCarries = 0.05;
 // Half of the time for which a foot swings, cycles: as in Booster Gym.
 constexpr double kHalfSwing = 0.2;
+// Least height of the torso of a robot that stands, as a fraction of the start's, and cosine of its
+// greatest tilt. Chosen: lower than any stand, higher than kneeling.
+constexpr double kStandingHeight = 0.85;
+constexpr double kStandingUp = 0.9;
 
 double square(double value) {
   return value * value;
@@ -53,7 +57,9 @@ const std::array<const char*, kNumRewardTerms>& reward_term_names() {
                                                                  "sole_angle",
                                                                  "foot_distance",
                                                                  "fallen",
-                                                                 "alive"};
+                                                                 "alive",
+                                                                 "standing",
+                                                                 "assist"};
   return names;
 }
 
@@ -145,6 +151,10 @@ void calc_reward_terms(const RobotModel& model, const PolicyManifest& manifest,
       square(std::max(0.0, side_distance(start) - side_distance(after))));
   put(RewardTerm::kFallen, fallen ? 1 : 0);
   put(RewardTerm::kAlive, fallen ? 0 : 1);
+  const bool stands = after.torso.linear()(2, 2) > kStandingUp &&
+                      after.torso.translation().z() > kStandingHeight * height;
+  put(RewardTerm::kStanding, stands ? 1 : 0);
+  put(RewardTerm::kAssist, after.assist);
 }
 
 }  // namespace nao::policy_train

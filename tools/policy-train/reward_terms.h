@@ -50,6 +50,10 @@ enum class RewardTerm {
   /** 1 in the step in which the robot falls; 1 in each other step. */
   kFallen,
   kAlive,
+  /** Of a get-up: 1 while the robot stands; the pull on its torso, see AssistSchedule, which has no
+   * weight. */
+  kStanding,
+  kAssist,
   kCount
 };
 inline constexpr int kNumRewardTerms = static_cast<int>(RewardTerm::kCount);
@@ -70,6 +74,8 @@ struct MotionSample {
   /** Horizontal velocity in the frame of the torso's heading, m/s, and turn, rad/s, less the
    * commanded ones; means over about half a second. */
   Eigen::Vector3d velocity_error = Eigen::Vector3d::Zero();
+  /** Force that pulls the torso up, as a fraction of the weight. */
+  double assist = 0;
   /** In W; left, right. */
   std::array<Eigen::Isometry3d, 2> soles{Eigen::Isometry3d::Identity(),
                                          Eigen::Isometry3d::Identity()};

@@ -45,8 +45,13 @@ WEIGHTS = {
              "joint_speed": -0.2, "joint_acceleration": -0.5, "action_rate": -3.0, "range": -10.0, "lateral_posture": -2.5,
              "posture": -0.1, "rest_posture": -10.0, "slip": -0.3, "sole_angle": -0.5, "foot_distance": -20.0,
              "fallen": -50.0},
-    "get-up": {"tilt": -2.0, "height": -4.0, "torque": -0.1, "joint_acceleration": -0.1, "action_rate": -1.0,
+    "get-up": {"standing": 3.0, "tilt": -2.0, "height": -6.0, "torque": -0.1, "joint_acceleration": -0.1, "action_rate": -1.0,
                "range": -5.0, "posture": -0.5},
+}
+# What is printed of a training beside its reward.
+PROGRESS = {
+    "walk": "tracking of the velocity {velocity_tracking:.2f}, {falls_per_minute:.2f} falls a minute",
+    "get-up": "standing {standing:.2f}, pulled up by {assist:.2f} of the weight",
 }
 DEFAULTS: dict[str, Any] = {
     "hidden": [128, 128], "size": 384, "horizon": 32, "epochs": 4, "minibatches": 4, "discount": 0.99, "trace": 0.95,
@@ -314,7 +319,7 @@ def read_settings(folder: Path) -> tuple[dict[str, Any], dict[str, float]]:
     unknown = set(changes) - set(DEFAULTS)
     if unknown:
         sys.exit(f"{file}: unknown settings {sorted(unknown)}; there are {', '.join(DEFAULTS)}, weights")
-    return {**DEFAULTS, **changes}, weights
+    return {**DEFAULTS, **changes, "kind": kind}, weights
 
 
 def open_batch(folder: Path, model: str, settings: dict[str, Any], weights: dict[str, float], seed: int,
@@ -356,8 +361,7 @@ def train(trainer: Trainer, folder: Path, options: argparse.Namespace) -> None:
                     continue
                 last = time.monotonic()
                 print(f"{figures['seconds'] / 60:.1f} min, {trainer.num_samples / 1e6:.2f} million steps: reward "
-                      f"{figures['reward']:.2f}, tracking of the velocity {figures['velocity_tracking']:.2f}, "
-                      f"{figures['falls_per_minute']:.2f} falls a minute", flush=True)
+                      f"{figures['reward']:.2f}, " + PROGRESS[trainer.settings["kind"]].format(**figures), flush=True)
                 write()
     except KeyboardInterrupt:
         print("ended; --resume goes on")

@@ -87,6 +87,14 @@ TEST_F(RewardTerms, LetEachFootSwingInItsHalfOfTheCycle) {
   EXPECT_EQ(term(RewardTerm::kGait, Eigen::Vector3d::Zero(), 0.25), 1);
 }
 
+TEST_F(RewardTerms, TellARobotThatStandsFromOneThatKneelsOrLeans) {
+  EXPECT_EQ(term(RewardTerm::kStanding), 1);
+  after_.torso.translation().z() = 0.7;
+  EXPECT_EQ(term(RewardTerm::kStanding), 0);
+  after_.torso = start_.torso * Eigen::AngleAxisd(0.6, Eigen::Vector3d::UnitX());
+  EXPECT_EQ(term(RewardTerm::kStanding), 0);
+}
+
 TEST_F(RewardTerms, PunishSlipOfFeetThatCarryOnly) {
   after_.soles[1].translation().x() += 0.01;
   EXPECT_NEAR(term(RewardTerm::kSlip), 0.25, 1e-6);

