@@ -10,17 +10,20 @@ namespace nao::policy_train {
  * 2025. */
 class AssistSchedule {
  public:
+  /** @param greatest  The pull at first. */
+  explicit AssistSchedule(double greatest) : greatest_(greatest), share_(greatest) {}
+
   double share() const { return share_; }
 
-  void learn(bool stands) { share_ = std::clamp(share_ + (stands ? -kDown : kUp), 0.0, kGreatest); }
+  void learn(bool stands) { share_ = std::clamp(share_ + (stands ? -kDown : kUp), 0.0, greatest_); }
 
  private:
-  // Chosen: T1 and NAO learn to stand with it in two million steps.
-  static constexpr double kGreatest = 0.6;
+  // Chosen: it ends after twenty successes, and falls as long as one episode of three succeeds.
   static constexpr double kDown = 0.03;
   static constexpr double kUp = 0.015;
 
-  double share_ = kGreatest;
+  double greatest_;
+  double share_;
 };
 
 }  // namespace nao::policy_train

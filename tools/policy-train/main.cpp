@@ -162,6 +162,10 @@ int main(int argc, char** argv) {
       ->range(0.0, 10.0);
   app.add_option("--rest", options.rest_share, "Share of the episodes with velocity 0")
       ->range(0.0, 1.0);
+  app.add_option("--assist", options.assist,
+                 "Pull on the torso of a robot that learns to get up, at first, as a fraction of "
+                 "its weight")
+      ->range(0.0, 1.0);
   app.add_option("--episode", options.episode_time, "Longest episode, s")->range(1.0, 1000.0);
   app.add_option("--command", command,
                  "Velocity VX VY WZ of all episodes, m/s and rad/s, instead of drawn ones")

@@ -58,6 +58,7 @@ PolicyEnvironment::PolicyEnvironment(const EnvironmentOptions& options, const Pu
     : options_(options),
       random_(seed),
       pushes_(pushes),
+      assist_(options.assist),
       world_(std::make_unique<sim::World>(options.scene, world_options(options, seed))),
       builder_(*options.manifest),
       action_(options.manifest->joints.size()),

@@ -36,6 +36,8 @@ struct EnvironmentOptions {
   /** Greatest horizontal impulse that hits the torso about every two seconds, N s for each kg of
    * the robot, see PushSchedule; 0: no pushes. */
   double push = 0;
+  /** First pull on the torso of a robot that learns to get up, see AssistSchedule. */
+  double assist = 0.6;
   /** Share of the episodes with velocity 0 throughout. */
   double rest_share = 0;
   /** Greatest difference of each moved joint from its default angle at the start, rad. Chosen. */
@@ -109,6 +111,7 @@ class PolicyEnvironment {
   EnvironmentOptions options_;
   Random random_;
   RobotPushes pushes_;
+  AssistSchedule assist_;
   /** The velocity is 0 throughout this episode. */
   bool is_resting_ = false;
   std::unique_ptr<sim::World> world_;
@@ -130,7 +133,6 @@ class PolicyEnvironment {
   int ticks_per_step_ = 1;
   int num_steps_ = 0;
   bool is_first_episode_ = true;
-  AssistSchedule assist_;
   /** Steps of this episode until which a robot that was pushed steps in place. */
   int recovery_end_ = 0;
   Kinematics kinematics_;

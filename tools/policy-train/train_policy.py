@@ -56,7 +56,7 @@ PROGRESS = {
 DEFAULTS: dict[str, Any] = {
     "hidden": [128, 128], "size": 384, "horizon": 32, "epochs": 4, "minibatches": 4, "discount": 0.99, "trace": 0.95,
     "clip": 0.2, "entropy": 0.001, "divergence": 0.01, "rate": 1e-3, "deviation": 0.5, "push": 0.0,
-    "rest": 0.0, "episode": 20.0, "disturbances": "default", "critic_first": 0,
+    "rest": 0.0, "assist": 0.6, "episode": 20.0, "disturbances": "default", "critic_first": 0,
 }
 
 
@@ -327,7 +327,7 @@ def open_batch(folder: Path, model: str, settings: dict[str, Any], weights: dict
     """Under mpirun it returns in the first process only; the others simulate until that one ends.
     @return the robots and the weights of their reward's terms, for a second.
     @throws RuntimeError, ValueError  as Batch and Batch.weights() do."""
-    options = {name: settings[name] for name in ("size", "disturbances", "push", "rest", "episode")}
+    options = {name: settings[name] for name in ("size", "disturbances", "push", "rest", "assist", "episode")}
     options |= {"policy": folder / "policy.yaml", "model": model, "seed": 1000 * seed, "threads": threads}
     if int(os.environ.get("OMPI_COMM_WORLD_SIZE", "1")) == 1:
         batch = Batch(**options)

@@ -179,7 +179,7 @@ TEST(BatchSimulation, PullsTheTorsoOfARobotThatIsToGetUpUntilItStands) {
   };
   batch.step(rows.arrays());
   for (size_t i = 0; i < 4; ++i) EXPECT_NEAR(assist(i), 0.6F, 1e-6F);
-  AssistSchedule schedule;
+  AssistSchedule schedule(0.6);
   for (int k = 0; k < 19; ++k) schedule.learn(true);
   EXPECT_NEAR(schedule.share(), 0.03, 1e-9);
   schedule.learn(false);
