@@ -74,8 +74,9 @@ LyingStill wait_until_still(ClosedLoop& trial) {
 
 bool has_got_up(ClosedLoop& trial) {
   const MotionReferences& references = trial.model().references();
-  return trial.core().motion_state().posture == references.ready && trial.torso_tilt() < 0.3 &&
-         trial.torso_height() > kUpright * references.heights.standing;
+  const motion::MotionState state = trial.core().motion_state();
+  return state.mode == Mode::kHolding && state.posture == references.ready &&
+         trial.torso_tilt() < 0.3 && trial.torso_height() > kUpright * references.heights.standing;
 }
 
 bool keeps_standing(ClosedLoop& trial) {

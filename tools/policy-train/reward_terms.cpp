@@ -124,7 +124,11 @@ void calc_reward_terms(const RobotModel& model, const PolicyManifest& manifest,
   put(RewardTerm::kRange, range / count);
   put(RewardTerm::kLateralPosture, lateral / count);
   put(RewardTerm::kPosture, posture / count);
-  put(RewardTerm::kRestPosture, is_at_rest(manifest, command) ? posture / count : 0);
+  const bool stands = after.torso.linear()(2, 2) > kStandingUp &&
+                      after.torso.translation().z() > kStandingHeight * height;
+  const bool rests =
+      manifest.kind == PolicyManifest::Kind::kGetUp ? stands : is_at_rest(manifest, command);
+  put(RewardTerm::kRestPosture, rests ? posture / count : 0);
 
   double gait = 0, clearance = 0, slip = 0, angle = 0;
   for (size_t foot = 0; foot < 2; ++foot) {
@@ -151,8 +155,6 @@ void calc_reward_terms(const RobotModel& model, const PolicyManifest& manifest,
       square(std::max(0.0, side_distance(start) - side_distance(after))));
   put(RewardTerm::kFallen, fallen ? 1 : 0);
   put(RewardTerm::kAlive, fallen ? 0 : 1);
-  const bool stands = after.torso.linear()(2, 2) > kStandingUp &&
-                      after.torso.translation().z() > kStandingHeight * height;
   put(RewardTerm::kStanding, stands ? 1 : 0);
   put(RewardTerm::kAssist, after.assist);
 }

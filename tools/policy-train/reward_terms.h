@@ -35,7 +35,8 @@ enum class RewardTerm {
    * (roll, yaw), and of all joints, rad. */
   kLateralPosture,
   kPosture,
-  /** The last one while the robot is to stand: command 0, and the phase rests. */
+  /** The last one while the robot is to stand, command 0, and the phase rests; and while a robot
+   * that gets up stands. */
   kRestPosture,
   /** Feet, 0 to 2, that carry the robot, or do not, as the phase says. */
   kGait,

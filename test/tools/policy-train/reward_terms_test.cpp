@@ -89,8 +89,12 @@ TEST_F(RewardTerms, LetEachFootSwingInItsHalfOfTheCycle) {
 
 TEST_F(RewardTerms, TellARobotThatStandsFromOneThatKneelsOrLeans) {
   EXPECT_EQ(term(RewardTerm::kStanding), 1);
+  manifest_.kind = PolicyManifest::Kind::kGetUp;
+  after_.position.array() += 0.1;
+  EXPECT_NEAR(term(RewardTerm::kRestPosture), 0.01, 1e-6);
   after_.torso.translation().z() = 0.7;
   EXPECT_EQ(term(RewardTerm::kStanding), 0);
+  EXPECT_EQ(term(RewardTerm::kRestPosture), 0);
   after_.torso = start_.torso * Eigen::AngleAxisd(0.6, Eigen::Vector3d::UnitX());
   EXPECT_EQ(term(RewardTerm::kStanding), 0);
 }
