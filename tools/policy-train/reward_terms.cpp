@@ -23,6 +23,9 @@ constexpr double kHalfSwing = 0.2;
 // greatest tilt. Chosen: lower than any stand, higher than kneeling.
 constexpr double kStandingHeight = 0.85;
 constexpr double kStandingUp = 0.9;
+// Mean square of the joints' speeds at which the reward for standing has fallen to 1/e, (rad/s)^2.
+// Chosen: a NAO that stood without it shook at 4 rad/s.
+constexpr double kSquaredSpeed = 8;
 
 double square(double value) {
   return value * value;
@@ -102,12 +105,14 @@ void calc_reward_terms(const RobotModel& model, const PolicyManifest& manifest,
   put(RewardTerm::kVerticalSpeed, square(velocity.z()));
   put(RewardTerm::kTiltRate, after.angular_velocity.head<2>().squaredNorm());
 
-  double torque = 0, speed = 0, acceleration = 0, rate = 0, range = 0, lateral = 0, posture = 0;
+  double torque = 0, speed = 0, square_speed = 0, acceleration = 0, rate = 0, range = 0,
+         lateral = 0, posture = 0;
   for (const PolicyJoint& joint : manifest.joints) {
     const int m = joint.motor;
     const Joint& limits = model.motor_joint(m);
     torque += square(after.torque[m] / model.motor(m).peak_torque);
     speed += square(after.velocity[m] / limits.max_velocity);
+    square_speed += square(after.velocity[m]);
     acceleration += square((after.velocity[m] - before.velocity[m]) / limits.max_velocity);
     rate += square(after.target[m] - before.target[m]);
     const double inside = std::clamp(after.target[m], limits.lower, limits.upper);
@@ -155,7 +160,7 @@ void calc_reward_terms(const RobotModel& model, const PolicyManifest& manifest,
       square(std::max(0.0, side_distance(start) - side_distance(after))));
   put(RewardTerm::kFallen, fallen ? 1 : 0);
   put(RewardTerm::kAlive, fallen ? 0 : 1);
-  put(RewardTerm::kStanding, stands ? 1 : 0);
+  put(RewardTerm::kStanding, stands ? std::exp(-square_speed / count / kSquaredSpeed) : 0);
   put(RewardTerm::kAssist, after.assist);
 }
 

@@ -51,7 +51,8 @@ enum class RewardTerm {
   /** 1 in the step in which the robot falls; 1 in each other step. */
   kFallen,
   kAlive,
-  /** Of a get-up: 1 while the robot stands; the pull on its torso, see AssistSchedule, which has no
+  /** Of a get-up: exp(-s / 8) while the robot stands, s the mean square of the joints' speeds,
+   * rad/s, and 0 otherwise; the pull on its torso, see AssistSchedule, which has no
    * weight. */
   kStanding,
   kAssist,

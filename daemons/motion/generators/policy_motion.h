@@ -34,6 +34,7 @@ class PolicyMotion : public MotionGenerator {
   bool can_be_replaced() const override;
   void finish() override { is_finishing_ = true; }
   bool adopt(const Command& command) override;
+  double progress() const override;
   Mode mode() const override;
   bool must_stay_upright() const override;
   std::optional<double> fall_tilt() const override;
