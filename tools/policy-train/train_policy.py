@@ -377,6 +377,7 @@ def main() -> None:
     parser.add_argument("--iterations", type=int, default=1_000_000, help="at the most")
     parser.add_argument("--threads", type=int, default=os.cpu_count(), help="of the simulation (default: all cores)")
     parser.add_argument("--resume", action="store_true", help=f"go on from {CHECKPOINT}")
+    parser.add_argument("--deviation", type=float, help="of the actions from now on, with --resume: less, for a calmer policy")
     parser.add_argument("--start", type=Path, help="go on from this policy.onnx, of the same observations and hidden layers")
     options = parser.parse_args()
     settings, weights = read_settings(options.folder)
@@ -391,6 +392,8 @@ def main() -> None:
         trainer = Trainer(batch, settings, row, options.seed)
         if options.resume:
             trainer.load(options.folder / CHECKPOINT)
+            if options.deviation:
+                trainer.deviation.data.fill_(math.log(options.deviation))
         elif options.start:
             trainer.adopt(read_mlp(options.start))
         train(trainer, options.folder, options)
