@@ -84,7 +84,12 @@ MotionFactory::MotionFactory(const RobotModel& model, const MotionOptions& optio
     return manifest.recovery_margin.has_value();
   });
   if (gait_ || !policies_.empty()) legs_.emplace(model);
-  if (!options.policy.empty()) {
+  get_up_policy_ = find_policy(policies_, [](const PolicyManifest& manifest) {
+    return manifest.kind == PolicyManifest::Kind::kGetUp;
+  });
+  if (options.policy == kNoPolicy) {
+    get_up_policy_ = nullptr;
+  } else if (!options.policy.empty()) {
     const Policy& policy = find_policy(policies_, options.policy);
     const bool gets_up = policy.manifest && policy.manifest->kind == PolicyManifest::Kind::kGetUp;
     (gets_up ? get_up_policy_ : walk_policy_) = &policy;
@@ -114,8 +119,9 @@ std::map<std::string, MotionFactory::ActionPlanner> MotionFactory::make_action_t
 MotionFactory::ActionPlanner MotionFactory::make_planner(const Action& action) {
   switch (action.kind) {
     case Action::Kind::kStandUp:
-      return [this](const ActionCommand&, const Situation&) -> MotionPlan {
-        return make_stand_path();
+      return [this](const ActionCommand&, const Situation& situation) -> MotionPlan {
+        const bool lies = is_lying(situation.context.state, options_->lying_tilt);
+        return lies ? make_get_up(0) : make_stand_path();
       };
     case Action::Kind::kRest:
       return [this](const ActionCommand&, const Situation&) -> MotionPlan {
@@ -282,26 +288,22 @@ MotionPlan MotionFactory::plan_request(const StopCommand& /*stop*/,
 std::unique_ptr<MotionGenerator> MotionFactory::make_policy_motion(const Policy& policy,
                                                                    const WalkCommand& command) {
   return std::make_unique<PolicyMotion>(*model_, policy, make_stand_path(), make_stand_path(),
-                                        command,
-                                        [this] { walk_policy_ = get_up_policy_ = nullptr; });
+                                        command, [this, &policy] {
+                                          if (&policy == walk_policy_) walk_policy_ = nullptr;
+                                          if (&policy == get_up_policy_) get_up_policy_ = nullptr;
+                                        });
 }
 
 MotionPlan MotionFactory::plan_policy(const Policy& policy, const Situation& situation) {
   if (const std::string fault = policy.find_fault(); !fault.empty()) {
     return Reason("policy-unusable", {policy.name, fault});
   }
-  switch (policy.manifest->kind) {
-    case PolicyManifest::Kind::kWalk:
-      walk_policy_ = &policy;
-      // A walk ends, and the next one is by the policy.
-      return std::make_unique<StopMotion>();
-    case PolicyManifest::Kind::kAction:
-      if (const auto obstacle = find_policy_obstacle(situation)) return *obstacle;
-      break;
-    case PolicyManifest::Kind::kGetUp:
-      get_up_policy_ = &policy;
-      break;
+  if (policy.manifest->kind == PolicyManifest::Kind::kWalk) {
+    walk_policy_ = &policy;
+    // A walk ends, and the next one is by the policy.
+    return std::make_unique<StopMotion>();
   }
+  if (const auto obstacle = find_policy_obstacle(situation)) return *obstacle;
   return make_policy_motion(policy, {});
 }
 

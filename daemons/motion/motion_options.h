@@ -9,6 +9,9 @@
 
 namespace nao::motion {
 
+/** See MotionOptions::policy. */
+inline constexpr const char* kNoPolicy = "none";
+
 /** Options of the motion core. */
 struct MotionOptions {
   /** Time without sensor data after which there is no robot, s. */
@@ -44,7 +47,8 @@ struct MotionOptions {
   std::optional<Gait> gait;
   /** Transitions between states of the body; nothing: as in the robot's transitions.yaml. */
   std::optional<TransitionGraph> transitions;
-  /** Policy that walks instead of the gait, or gets up instead of the transitions; empty: none. */
+  /** Policy that walks instead of the gait, or gets up; empty: a robot that has one gets up by it;
+   * kNoPolicy: it does not. */
   std::string policy;
   /** How the robot differs from its model; nothing: not at all. */
   std::optional<Calibration> calibration;

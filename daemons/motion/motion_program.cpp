@@ -25,7 +25,8 @@ int nao::motion::run_motion(int argc, char** argv) {
                  "Speed of the robot's own motions, fraction of the maximum");
   app.add_option(
       "--policy", options.policy,
-      "Policy that walks, or gets up, instead of the robot's own motions: a folder in policies/");
+      "Policy that walks or gets up: a folder in policies/ of the robot; none: get-ups are "
+      "model-based");
   app.add_option("--calibration", calibration_file,
                  "File of the robot's own joint and sensor errors, as nao calibrate writes it");
   app.add_flag("!--no-get-up", options.gets_up, "After a fall, remain lying until a command");

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <set>
 
 #include "common/error.h"
 
@@ -56,13 +57,16 @@ std::string Policy::find_fault() const {
 }
 
 std::vector<Policy> load_policies(const RobotModel& model) {
-  std::vector<Policy> policies;
-  for (const Action& action : model.actions()) {
-    if (action.kind == Action::Kind::kPolicy) {
-      policies.push_back(
-          Policy::load(model, model.folder() / kPolicyFolder / action.name / kPolicyFile));
+  std::set<std::filesystem::path> files;
+  const std::filesystem::path folder = model.folder() / kPolicyFolder;
+  if (std::filesystem::is_directory(folder)) {
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+      if (std::filesystem::exists(entry.path() / kPolicyFile))
+        files.insert(entry.path() / kPolicyFile);
     }
   }
+  std::vector<Policy> policies;
+  for (const auto& file : files) policies.push_back(Policy::load(model, file));
   return policies;
 }
 

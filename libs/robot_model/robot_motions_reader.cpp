@@ -1,3 +1,5 @@
+#include <yaml-cpp/yaml.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -27,6 +29,15 @@ Action::Kind read_action_kind(const YamlEntry& entry) {
   const auto kind = static_cast<Action::Kind>(found - kActionKinds.begin());
   if (kind < Action::Kind::kPolicy) return kind;
   entry.fail("must be stand-up, rest, kick, block, dive or gesture");
+}
+
+// A policy that gets up is what `get-up` does, no action of its own.
+bool is_get_up(const std::filesystem::path& policy_file) {
+  try {
+    return YAML::LoadFile(policy_file.string())["kind"].as<std::string>("") == "get-up";
+  } catch (const YAML::Exception&) {
+    return false;
+  }
 }
 
 Side read_side(const YamlEntry& entry) {
@@ -186,7 +197,8 @@ void RobotModelReader::find_policies() {
   const std::filesystem::path folder = model_.folder_ / kPolicyFolder;
   if (!std::filesystem::is_directory(folder)) return;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    if (std::filesystem::exists(entry.path() / kPolicyFile)) {
+    const std::filesystem::path file = entry.path() / kPolicyFile;
+    if (std::filesystem::exists(file) && !is_get_up(file)) {
       names.insert(entry.path().filename().string());
     }
   }

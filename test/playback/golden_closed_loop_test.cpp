@@ -19,6 +19,7 @@
 #include "test/playback/golden_hash.h"
 #include "test/playback/golden_messages.h"
 #include "test/playback/golden_session.h"
+#include "test/playback/model_based.h"
 
 namespace nao::playback {
 namespace {
@@ -156,7 +157,7 @@ class ClosedLoop {
     bus.subscribe<naolcm::command_result_t>(
         channels.command_result, Bus::Queue::kAll,
         [this](const naolcm::command_result_t& message) { note(message); });
-    const motion::MotionDaemon motion(bus, motion_loop, model, motion::MotionOptions(), "NAO");
+    const motion::MotionDaemon motion(bus, motion_loop, model, model_based(), "NAO");
     sim::SimOptions options;
     options.lock_step = true;
     options.seed = seed_;

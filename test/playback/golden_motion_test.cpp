@@ -15,6 +15,7 @@
 #include "daemons/motion/motion_daemon.h"
 #include "test/playback/golden_messages.h"
 #include "test/playback/golden_session.h"
+#include "test/playback/model_based.h"
 
 namespace nao::playback {
 namespace {
@@ -54,7 +55,7 @@ class MotionReplay {
     bus.subscribe<naolcm::command_result_t>(
         channels.command_result, Bus::Queue::kAll,
         [this](const naolcm::command_result_t& message) { note(message); });
-    const motion::MotionDaemon daemon(bus, loop, model, motion::MotionOptions(), "NAO");
+    const motion::MotionDaemon daemon(bus, loop, model, model_based(), "NAO");
     size_t next_command = 0;
     for (row_ = 0; row_ < table_.num_rows(); ++row_) {
       const int64_t tick = table_.tick(row_);

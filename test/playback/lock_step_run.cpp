@@ -19,6 +19,7 @@
 #include "daemons/motion/motion_daemon.h"
 #include "sim/sim_daemon.h"
 #include "test/playback/frozen_log.h"
+#include "test/playback/model_based.h"
 
 namespace nao::playback {
 namespace {
@@ -126,7 +127,7 @@ Course run_in_lock_step(const std::vector<LogEvent>& commands, double after) {
       });
   const CourseWriter writer(bus, channels, end);
   const RobotModel model = RobotModel::load(data_path() / "robots" / "nao");
-  const motion::MotionDaemon motion(bus, loop, model, motion::MotionOptions(), "NAO");
+  const motion::MotionDaemon motion(bus, loop, model, model_based(), "NAO");
   sim::SimOptions options;
   options.lock_step = true;
   const sim::SimDaemon sim(bus, loop, options);

@@ -17,6 +17,7 @@
 #include "test/playback/course.h"
 #include "test/playback/frozen_log.h"
 #include "test/playback/lock_step_run.h"
+#include "test/playback/model_based.h"
 
 namespace nao::playback {
 namespace {
@@ -84,7 +85,7 @@ Reaction react_to(const std::vector<LogEvent>& sensors) {
         const std::string mode = to_string(static_cast<Mode>(message.mode));
         if (reaction.modes.empty() || reaction.modes.back() != mode) reaction.modes.push_back(mode);
       });
-  const motion::MotionDaemon daemon(bus, loop, model, motion::MotionOptions(), "NAO");
+  const motion::MotionDaemon daemon(bus, loop, model, model_based(), "NAO");
   for (const LogEvent& event : sensors) {
     send(bus, event);
     while (bus.handle_for(0)) {

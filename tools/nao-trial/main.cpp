@@ -161,7 +161,8 @@ int main(int argc, char** argv) {
         ->range(0, 8);
     command->add_option(
         "--policy", options.trial.motion.policy,
-        "Policy that walks, or gets up, instead of the robot's own motions: a folder in policies/");
+        "Policy that walks or gets up: a folder in policies/ of the robot; none: get-ups are "
+        "model-based");
     command->add_flag("--ideal", options.trial.is_ideal,
                       "No noise or latency either: --disturbances none");
     command->add_flag("--verbose", is_verbose, "Print a line for each run");

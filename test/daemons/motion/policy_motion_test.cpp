@@ -251,7 +251,7 @@ TEST_F(PolicyMotionTest, AGetUpThatFailsIsFollowedByTheRobotsOwn) {
   loop_->world().push(0, 0, {60, 0, 0});
   EXPECT_TRUE(loop_->run_until([&] { return loop_->torso_tilt() > 1.3; }, 5));
   loop_->run(0.5);
-  const CommandResult result = act("lie");
+  const CommandResult result = act("get-up");
   if (result.status == ResultStatus::kFailed) {
     EXPECT_EQ(result.reason,
               Reason("policy-stopped", {"lie", "the robot did not stand within 1 s"}));
@@ -261,7 +261,7 @@ TEST_F(PolicyMotionTest, AGetUpThatFailsIsFollowedByTheRobotsOwn) {
 
 TEST_F(PolicyMotionTest, AFallenRobotGetsUpByAPolicyFirst) {
   robot_.add("lie", "kind: get-up\nduration: 1\n", kArm, 4, {OnnxFile::constant(4, {0.3F})});
-  begin("lie");
+  begin();
   const auto arm = static_cast<size_t>(loop_->model().find_motor("Left_Shoulder_Pitch"));
   const double angle = loop_->targets()[arm] + 0.3;
   double time = 0;
