@@ -150,6 +150,9 @@ def main():
     for file, key in KEYFRAME_FILES:
         rewrite(source / file, target / file,
                 lambda data, key=key: [rename_keyframes(entry, names) for entry in data[key]])
+    for file in source.glob("policies/*/policy.yaml"):
+        rewrite(file, target / file.relative_to(source),
+                lambda data: data.update(joints=[{**joint, "name": names.joint(joint["name"])} for joint in data["joints"]]))
     lines = [f"{kind} {old} {new}\n" for (kind, old), new in names.new.items()]
     (target / "names.txt").write_text("".join(lines))
 

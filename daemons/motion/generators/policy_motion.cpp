@@ -353,6 +353,8 @@ std::optional<double> PolicyMotion::fall_tilt() const {
 }
 
 void PolicyMotion::describe(MotionState& state) const {
+  if (stage_ == Stage::kStandingUp) return stand_up_->describe(state);
+  if (stage_ == Stage::kEnding) return end_->describe(state);
   state.walk_velocity = velocity_;
 }
 

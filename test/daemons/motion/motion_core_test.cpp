@@ -295,7 +295,9 @@ TEST(MotionCore, RunsAtAnyControlPeriod) {
 
 TEST(MotionCore, GetsUpAfterTheSameTimeAtAnyControlPeriod) {
   for (const double period : {0.010, 0.012}) {
-    MotionCore core(nao_model(), MotionOptions());
+    MotionOptions options;
+    options.policy = kNoPolicy;
+    MotionCore core(nao_model(), options);
     PerfectRobot robot("StandInit", period);
     robot.settle(core);
     robot.lie_on_belly();
@@ -307,9 +309,9 @@ TEST(MotionCore, GetsUpAfterTheSameTimeAtAnyControlPeriod) {
       targets = robot.step(core).joint_targets->position;
       if (core.motion_state().mode != Mode::kGettingUp) begin = time;
     }
-    EXPECT_NEAR(begin, MotionOptions().get_up_delay, 4 * period) << period;
+    EXPECT_NEAR(begin, options.get_up_delay, 4 * period) << period;
     // The delay before it gets up, and the time for which it must lie still.
-    EXPECT_NEAR(time, MotionOptions().get_up_delay + 0.1, 4 * period) << period;
+    EXPECT_NEAR(time, options.get_up_delay + 0.1, 4 * period) << period;
   }
 }
 
