@@ -27,7 +27,7 @@ Posture draw_posture(const RobotModel& model, double spread,
 
 Posture lay_down(World& world, int robot, double side,
                  const std::function<double(double, double)>& uniform) {
-  const Posture posture = draw_posture(world.robot(robot).model(), kSpread, uniform);
+  Posture posture = draw_posture(world.robot(robot).model(), kSpread, uniform);
   // Torso horizontal, then rolled about its own long axis to the given side.
   const Eigen::Quaterniond orientation = Eigen::AngleAxisd(M_PI / 2, Eigen::Vector3d::UnitY()) *
                                          Eigen::AngleAxisd(side, Eigen::Vector3d::UnitZ());
