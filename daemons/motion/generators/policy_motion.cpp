@@ -129,9 +129,13 @@ void PolicyMotion::return_to_stand(const MotionContext& context, const JointTarg
       joint_rates(context.model, 1, context.options.free_acceleration), kReturnTime);
 }
 
-void PolicyMotion::fail(const std::string& why) {
+void PolicyMotion::give_up(const std::string& why) {
   has_failed_ = true;
   reason_ = Reason("policy-stopped", {policy_->name, why});
+}
+
+void PolicyMotion::fail(const std::string& why) {
+  give_up(why);
   on_fault_();
 }
 
@@ -274,7 +278,7 @@ bool PolicyMotion::is_over(const MotionContext& context, const JointTargets& tar
                           : 0;
       if (time_at_rest_ > kUprightTime) return true;
       if (time_ < policy_->manifest->duration) return false;
-      fail("the robot did not stand within " + to_argument(policy_->manifest->duration) + " s");
+      give_up("the robot did not stand within " + to_argument(policy_->manifest->duration) + " s");
       return true;
     default:
       return is_finishing_ || time_ > policy_->manifest->duration;

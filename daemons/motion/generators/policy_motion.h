@@ -56,6 +56,9 @@ class PolicyMotion : public MotionGenerator {
    * that it must step. */
   bool is_pushed_again(const RobotState& state) const;
   void return_to_stand(const MotionContext& context, const JointTargets& targets);
+  /** Lets the robot's own motions finish. */
+  void give_up(const std::string& why);
+  /** The same, and the policy must not move the robot again. */
   void fail(const std::string& why);
   /** @return Whether the policy still moves the robot. */
   bool run(const MotionContext& context, JointTargets& targets);

@@ -268,11 +268,15 @@ TEST_F(PolicyMotionTest, AFallenRobotGetsUpByAPolicyFirst) {
   loop_->on_tick([&] {
     if (std::abs(loop_->targets()[arm] - angle) < 1e-6) time += loop_->period();
   });
-  loop_->world().push(0, 0, {60, 0, 0});
-  EXPECT_TRUE(loop_->run_until([&] { return loop_->torso_tilt() > 1.3; }, 5));
-  EXPECT_TRUE(loop_->run_until([&] { return loop_->torso_tilt() < 0.1; }, 30));
-  EXPECT_GT(time, 0.2);
-  EXPECT_LT(time, 1.1);
+  for (int i = 0; i < 2; ++i) {
+    time = 0;
+    loop_->world().push(0, 0, {60, 0, 0});
+    EXPECT_TRUE(loop_->run_until([&] { return loop_->torso_tilt() > 1.3; }, 5)) << i;
+    EXPECT_TRUE(loop_->run_until([&] { return loop_->torso_tilt() < 0.1; }, 30)) << i;
+    EXPECT_GT(time, 0.2) << i;
+    EXPECT_LT(time, 1.1) << i;
+    loop_->run(10);
+  }
 }
 
 TEST_F(PolicyMotionTest, AnUnknownPolicyNamesTheKnownOnes) {
