@@ -187,8 +187,8 @@ std::unique_ptr<MotionGenerator> MotionFactory::make_stand_path() const {
 }
 
 std::unique_ptr<MotionGenerator> MotionFactory::make_get_up(int num_tries) {
-  // What a policy did not manage at once, the transitions do.
-  if (get_up_policy_ != nullptr && get_up_policy_->find_fault().empty() && num_tries == 0) {
+  // A policy that leaves a robot unsteady twice is followed by the transitions.
+  if (get_up_policy_ != nullptr && get_up_policy_->find_fault().empty() && num_tries % 3 != 2) {
     return make_policy_motion(*get_up_policy_, {});
   }
   return std::make_unique<PosturePathMotion>(graph_, *stand_, options_->default_speed, false,
