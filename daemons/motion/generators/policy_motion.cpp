@@ -159,7 +159,10 @@ MotionGenerator::Phase PolicyMotion::step(const MotionContext& context, JointTar
     }
     if (phase == Phase::kFailed && !has_failed_) reason_ = path.reason();
     if (phase == Phase::kFailed) return phase;
-    if (stage_ == Stage::kEnding) return has_failed_ ? Phase::kFailed : Phase::kDone;
+    if (stage_ == Stage::kEnding) {
+      // A robot that is up has got up, by whatever motion.
+      return has_failed_ && kind() != Kind::kGetUp ? Phase::kFailed : Phase::kDone;
+    }
     if (is_finishing_) return Phase::kDone;
     approach(context, targets);
     return Phase::kRunning;

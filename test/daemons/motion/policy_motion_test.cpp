@@ -252,10 +252,7 @@ TEST_F(PolicyMotionTest, AGetUpThatFailsIsFollowedByTheRobotsOwn) {
   EXPECT_TRUE(loop_->run_until([&] { return loop_->torso_tilt() > 1.3; }, 5));
   loop_->run(0.5);
   const CommandResult result = act("get-up");
-  if (result.status == ResultStatus::kFailed) {
-    EXPECT_EQ(result.reason,
-              Reason("policy-stopped", {"lie", "the robot did not stand within 1 s"}));
-  }
+  EXPECT_NE(result.status, ResultStatus::kFailed) << result.reason;
   EXPECT_TRUE(loop_->run_until([&] { return loop_->torso_tilt() < 0.1; }, 30));
 }
 
@@ -275,7 +272,8 @@ TEST_F(PolicyMotionTest, AFallenRobotGetsUpByAPolicyFirst) {
     EXPECT_TRUE(loop_->run_until([&] { return loop_->torso_tilt() < 0.1; }, 30)) << i;
     EXPECT_GT(time, 0.2) << i;
     EXPECT_LT(time, 1.1) << i;
-    loop_->run(10);
+    expect_standing();
+    loop_->run(3);
   }
 }
 
