@@ -28,8 +28,8 @@ class FieldPatches {
   /** @param reach  Half the side of the ground's square, m. */
   FieldPatches(const FieldDimensions& field, float reach);
 
-  /** Computes the patches for a view. Patches of different kinds overlap: what `mixed` covers is to
-   * be drawn by its shader, then what `lines` covers, then the carpet. */
+  /** Computes the patches for a view. Patches of different kinds overlap: lines are to be drawn
+   * over the carpet, and `mixed` over both. */
   void select(const RenderView& view);
 
   /** Ends and crossings of lines, the circle, the marks, corners of the carpet. */

@@ -36,15 +36,10 @@ void append(std::vector<gl::StreamBuffer::Vertex>& vertices, const GroundPatch& 
   }
 }
 
-/** Depth offset of each kind of patches towards the eye, so that what is drawn after it does not
- * cover it again (glPolygonOffset's units). Chosen: more than the rounding of depths; three of them
- * are less than 2 mm within 3 m. */
-constexpr float kPatchOffset = -8;
-
-/** Cells of the sky, over the image. Chosen: with fewer rows its color differs by more than 1 of
- * 255. */
-constexpr int kSkyColumns = 6;
-constexpr int kSkyRows = 14;
+/** Cells of the sky, over the image. Chosen: with fewer its color differs by more than 1 of 255 in
+ * a head camera's image. */
+constexpr int kSkyColumns = 4;
+constexpr int kSkyRows = 3;
 
 /** Lowest row of the image that may show sky: below it every ray meets the ground. */
 // The ground ends at least `reach` less the eye's distance from the origin away. A ray is above its
@@ -95,7 +90,6 @@ void GroundPass::set_surroundings(const SceneFile& scene) {
 void GroundPass::draw_ground(const RenderView& view, const ShadowPass& shadows,
                              RenderStatistics& statistics) {
   shadowed_ = shadows.shadowed_pixels(view);
-  glDepthFunc(GL_LESS);
   const SceneAppearance& look = view.appearance;
   const bool is_varied = look.carpet_texture > 0 || look.line_wear > 0 || look.shade_depth > 0;
   if (!field_dimensions_) {
@@ -105,31 +99,29 @@ void GroundPass::draw_ground(const RenderView& view, const ShadowPass& shadows,
   } else {
     draw_patches(view, shadows, statistics);
   }
-  glDepthFunc(GL_LEQUAL);
 }
 
-// What is drawn first covers what follows in the same place, since the depth must be less.
+// What is drawn last covers what is in the same place.
 void GroundPass::draw_patches(const RenderView& view, const ShadowPass& shadows,
                               RenderStatistics& statistics) {
   patches_.select(view);
-  is_hall_ = false;
-  glEnable(GL_POLYGON_OFFSET_FILL);
-  glPolygonOffset(0, 3 * kPatchOffset);
-  draw(field_, patches_.mixed(), view, shadows, statistics);
-  glPolygonOffset(0, 2 * kPatchOffset);
-  draw(line_, patches_.lines(), view, shadows, statistics);
-  glPolygonOffset(0, kPatchOffset);
-  draw(carpet_, patches_.carpet(), view, shadows, statistics);
   is_hall_ = true;
-  glPolygonOffset(0, 0);
   draw(carpet_, patches_.hall(), view, shadows, statistics);
-  glDisable(GL_POLYGON_OFFSET_FILL);
+  is_hall_ = false;
+  draw(carpet_, patches_.carpet(), view, shadows, statistics);
+  draw(line_, patches_.lines(), view, shadows, statistics);
+  draw(field_, patches_.mixed(), view, shadows, statistics);
 }
 
 void GroundPass::draw(const Programs& programs, const std::vector<GroundPatch>& patches,
                       const RenderView& view, const ShadowPass& shadows,
                       RenderStatistics& statistics) {
   Vertices vertices;
+  for (const GroundPatch& patch : patches) append(vertices, patch);
+  if (vertices.empty()) return;
+  use(programs.lit, view, shadows);
+  buffer_.draw_triangles(vertices);
+  ++statistics.num_draws;
   glEnable(GL_SCISSOR_TEST);
   for (const PixelBox& box : shadowed_) {
     vertices.clear();
@@ -143,12 +135,6 @@ void GroundPass::draw(const Programs& programs, const std::vector<GroundPatch>& 
     ++statistics.num_draws;
   }
   glDisable(GL_SCISSOR_TEST);
-  vertices.clear();
-  for (const GroundPatch& patch : patches) append(vertices, patch);
-  if (vertices.empty()) return;
-  use(programs.lit, view, shadows);
-  buffer_.draw_triangles(vertices);
-  ++statistics.num_draws;
 }
 
 void GroundPass::use(const gl::ShaderProgram& program, const RenderView& view,

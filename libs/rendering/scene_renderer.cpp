@@ -71,12 +71,17 @@ class SceneRenderer::Passes {
 
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     glViewport(0, 0, view.width, view.height);
-    glClear(GL_DEPTH_BUFFER_BIT);  // not the color: the sky covers every pixel that is left
+    glClear(GL_DEPTH_BUFFER_BIT);  // not the color: the sky covers what nothing else does
     exclude(covered);
-    // Near things first, so that the depth test saves the shading of what they hide.
-    bodies_.draw_opaque(view, shadows_, statistics);
-    ground_.draw_ground(view, shadows_, statistics);
+    // The background first, without the depth test, which costs more than the shading of what
+    // bodies hide of it. No body reaches below the ground.
+    if (covered.empty()) glDisable(GL_DEPTH_TEST);
+    glDepthMask(GL_FALSE);
     ground_.draw_sky(view, statistics);
+    ground_.draw_ground(view, shadows_, statistics);
+    glDepthMask(GL_TRUE);
+    glEnable(GL_DEPTH_TEST);
+    bodies_.draw_opaque(view, shadows_, statistics);
 
     // Translucent things last, over what is behind them. Nets and markings do not write depth, so
     // that they do not hide each other.

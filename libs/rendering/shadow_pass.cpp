@@ -19,6 +19,9 @@ constexpr float kMargin = 0.075f;
  * (smaller values) and shadows detached from the feet (larger values). */
 constexpr float kOffsetFactor = 2.0f;
 constexpr float kOffsetUnits = 4.0f;
+/** Least extent of a texel, m. Chosen: about a quarter of the casters' error, as finer ones show no
+ * more, and a part of kBoxStep. */
+constexpr float kLeastTexel = kBoxStep / 16;
 /** Width of a shadow's edge, m: a texel of the map, and the caster's error. */
 constexpr float kPenumbra = 0.02f;
 
@@ -33,26 +36,32 @@ Eigen::Matrix3f light_from_world(const Eigen::Vector3f& light) {
   return rotation;
 }
 
+/** The box that the map shows of casters in a box, m, both in the axes of the light. */
+Eigen::AlignedBox3f shown_box(const Eigen::AlignedBox3f& casters) {
+  // Snapped outwards to multiples of kBoxStep. The casters leave a margin, so that the texels at
+  // the map's edge are empty: points outside of the map take their value.
+  return {((casters.min().array() - kMargin) / kBoxStep).floor() * kBoxStep,
+          ((casters.max().array() + kMargin) / kBoxStep).ceil() * kBoxStep};
+}
+
 /** Orthographic projection along the light of everything inside a box.
  * @param box  m, in the axes of the light. @param light  Unit vector towards it. @return Clip
  * coordinates from world coordinates. */
 Eigen::Matrix4f light_projection(const Eigen::AlignedBox3f& box, const Eigen::Vector3f& light) {
-  // Snapped outwards to multiples of kBoxStep. The casters leave a margin, so that the texels at
-  // the map's edge are empty: points outside of the map take their value.
-  const Eigen::Vector3f lower = ((box.min().array() - kMargin) / kBoxStep).floor() * kBoxStep;
-  const Eigen::Vector3f upper = ((box.max().array() + kMargin) / kBoxStep).ceil() * kBoxStep;
-  const Eigen::Vector3f scale = 2 * (upper - lower).cwiseInverse();
+  const Eigen::Vector3f scale = 2 * box.sizes().cwiseInverse();
   Eigen::Matrix4f matrix = Eigen::Matrix4f::Identity();
   matrix.topLeftCorner<3, 3>() = scale.asDiagonal() * light_from_world(light);
-  matrix.topRightCorner<3, 1>() = -scale.cwiseProduct((lower + upper) / 2);
+  matrix.topRightCorner<3, 1>() = -scale.cwiseProduct(box.center());
   matrix.row(2) *= -1;  // depth grows away from the light
   return matrix;
 }
 
-/** From clip coordinates, -1 to 1, to texture coordinates, 0 to 1. */
-Eigen::Matrix4f texture_from_clip() {
-  Eigen::Matrix4f matrix = Eigen::Matrix4f::Identity() * 0.5f;
-  matrix.col(3) << 0.5f, 0.5f, 0.5f, 1;
+/** From clip coordinates, -1 to 1, to texture coordinates and depth, 0 to 1.
+ * @param used  Parts of the texture's width and height that the map takes. */
+Eigen::Matrix4f texture_from_clip(const Eigen::Vector2f& used) {
+  Eigen::Vector4f half(used.x() / 2, used.y() / 2, 0.5f, 1);
+  Eigen::Matrix4f matrix = half.asDiagonal();
+  matrix.col(3) = half;
   return matrix;
 }
 
@@ -96,7 +105,6 @@ bool ShadowPass::may_shadow(const BoundingSphere& sphere) const {
 void ShadowPass::draw(RenderStatistics& statistics) {
   if (!map_) return;
   glBindFramebuffer(GL_FRAMEBUFFER, map_->framebuffer());
-  glViewport(0, 0, map_->size(), map_->size());
   glClear(GL_DEPTH_BUFFER_BIT);
   if (casters_.empty()) {
     // Maps every point outside the texture, where nothing is in shadow.
@@ -104,8 +112,13 @@ void ShadowPass::draw(RenderStatistics& statistics) {
     shadow_from_world_.col(3) << 2, 2, 0, 1;
     return;
   }
-  const Eigen::Matrix4f clip_from_world = light_projection(casters_box_, light_);
-  shadow_from_world_ = texture_from_clip() * clip_from_world;
+  const Eigen::AlignedBox3f box = shown_box(casters_box_);
+  const Eigen::Vector2f num_texels = (box.sizes().head<2>() / kLeastTexel).array().round();
+  const Eigen::Vector2i size = num_texels.cast<int>().cwiseMin(map_->size());
+  glViewport(0, 0, size.x(), size.y());
+  const Eigen::Matrix4f clip_from_world = light_projection(box, light_);
+  shadow_from_world_ =
+      texture_from_clip(size.cast<float>() / static_cast<float>(map_->size())) * clip_from_world;
   glEnable(GL_POLYGON_OFFSET_FILL);
   glPolygonOffset(kOffsetFactor, kOffsetUnits);
   draws_.clear();

@@ -1,13 +1,11 @@
 // Background of all pixels that nothing else covers.
-// A grid of cells over the image, at the depth of the far plane: the sky changes so slowly that its
-// color is computed at their corners.
+// A grid of cells over the image: the way of light through the air changes so slowly that it is
+// computed at their corners.
 #ifdef VERTEX
 uniform mat4 world_from_clip;
 uniform float bottom;  // of the grid, in clip coordinates
 uniform ivec2 num_cells;
-out vec3 color;
-const vec3 kHorizon = vec3(0.70, 0.77, 0.84);
-const vec3 kZenith = vec3(0.20, 0.33, 0.55);
+noperspective out float air;  // 1 at the horizon, 0 at the zenith
 void main() {
   int cell = gl_VertexID / 6;
   int corner = gl_VertexID % 6;  // of two triangles
@@ -17,14 +15,20 @@ void main() {
   vec2 fraction = vec2(place) / vec2(num_cells);
   vec2 at = vec2(2.0 * fraction.x - 1.0, mix(bottom, 1.0, fraction.y));
   vec3 direction = normalize((world_from_clip * vec4(at, 1.0, 1.0)).xyz);
-  float depth = 1.0 - clamp(direction.z, 0.0, 1.0);
-  color = sqrt(mix(kZenith, kHorizon, depth * depth));
+  air = 1.0 - clamp(direction.z, 0.0, 1.0);
   gl_Position = vec4(at, 1.0, 1.0);
 }
 #else
-in vec3 color;
+noperspective in float air;
 out vec4 screen;
+const vec3 kHorizon = vec3(0.70, 0.77, 0.84);
+const vec3 kZenith = vec3(0.20, 0.33, 0.55);
+const vec3 kLow = sqrt(kHorizon);
+const vec3 kHigh = sqrt(kZenith);
+const vec3 kBend = 4.0 * sqrt((kHorizon + kZenith) / 2.0) - 2.0 * (kLow + kHigh);
+// The square root of the light, by a parabola that is at most 1 of 255 off and faster.
 void main() {
-  screen = vec4(color, 1.0);
+  float part = air * air;
+  screen = vec4(mix(kHigh, kLow, part) + part * (1.0 - part) * kBend, 1.0);
 }
 #endif
