@@ -40,7 +40,8 @@ void add_options(nao::CommandLine& app, ViewerOptions& options) {
                  "With --offscreen --no-panels: resolution factor, 1 to 4, before downsampling");
   app.add_option("--width", options.width, "Width, pixels");
   app.add_option("--height", options.height, "Height, pixels");
-  app.add_option("--shadow-size", options.shadow_size, "Side of the shadow map, texels; 0: none");
+  app.add_option("--shadow-size", options.shadow_size,
+                 "Greatest side of the shadow map, texels; 0: none");
   app.add_option("--view", options.view,
                  "Camera: azimuth and elevation (degrees), distance (m), and optionally the target "
                  "x, y, z (m)")

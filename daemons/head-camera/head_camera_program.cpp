@@ -31,7 +31,8 @@ void add_image_options(nao::CommandLine& app, HeadCameraOptions& options) {
   app.add_option("--width", options.width, "Width of --always, pixels: 640, 320 or 160");
   app.add_option("--rate", options.rate, "Images a second of --always, 1 to 30");
   app.add_option("--quality", options.quality, "JPEG quality of requests that give none, 1 to 95");
-  app.add_option("--shadow-size", options.shadow_size, "Side of the shadow map, texels; 0: none");
+  app.add_option("--shadow-size", options.shadow_size,
+                 "Greatest side of the shadow map, texels; 0: none");
   app.add_option("--egl-platform", options.egl_platform,
                  "EGL platform: auto, device, surfaceless or default");
 }

@@ -15,11 +15,11 @@ namespace {
 // least impulse for each kg that throws over a robot which does not step (nao-trial push-course).
 constexpr double kPushVelocity = 0.2;
 
-// Distances of the capture point beyond a foot's outer edge, and beyond the soles in any direction,
-// from which on a walk by the gait does not recover, as fractions of the center of mass's height;
-// the second one grows by the way of the walk in a time, s, as fast walks bring it farther out.
-// Chosen (nao-trial push-course, joystick and sprint, T1): less takes walks over that would have
-// gone on, more is too late.
+// A walk by the gait does not recover from a capture point that is farther beyond a foot's outer
+// edge, or beyond the soles in any direction, than these fractions of the center of mass's height.
+// To the second one the distance is added that the robot walks in kWalkTime, s, since a fast walk's
+// capture point leaves the soles without a push. Chosen (nao-trial push-course, joystick and
+// sprint, T1): less takes walks over that would have gone on, more is too late.
 constexpr double kWalkOutwardMargin = 0.04;
 constexpr double kWalkMargin = 0.15;
 constexpr double kWalkTime = 0.3;

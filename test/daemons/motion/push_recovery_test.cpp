@@ -51,7 +51,9 @@ TEST(PushRecovery, AFootThatSwingsAlreadyGoesOn) {
 TEST(PushRecovery, AWalkIsPushedWhenItsNextStepWouldNotCatchIt) {
   // At its own velocity the capture point is over the soles.
   EXPECT_FALSE(is_walk_pushed(moving(0.8, 0), {0.8, 0, 0}));
-  // The capture point is as far ahead of both, which a fast walk makes up for.
+  EXPECT_TRUE(is_walk_pushed(moving(2.2, 0), {0.3, 0, 0}));
+  EXPECT_FALSE(is_walk_pushed(moving(2.2, 0), {0.8, 0, 0}));
+  // Both are 1.2 m/s faster than they walk, which only the fast walk makes up for.
   EXPECT_TRUE(is_walk_pushed(moving(1.5, 0), {0.3, 0, 0}));
   EXPECT_FALSE(is_walk_pushed(moving(2.0, 0), {0.8, 0, 0}));
   EXPECT_TRUE(is_walk_pushed(moving(0.3, 0.7), {0.3, 0, 0}));
