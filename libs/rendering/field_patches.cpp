@@ -11,15 +11,19 @@ namespace {
 
 /** Greatest length of a part of a line, and side of a part of the carpet, m. Chosen: with smaller
  * ones the triangles cost more than they save; with larger ones of the carpet its color, which is
- * computed at their corners, differs by more than 1 of 255. */
+ * computed at their corners, differs by more than 2 of 255. */
 constexpr float kPieceLength = 0.25f;
-constexpr float kCarpetSize = 0.5f;
+constexpr float kCarpetSize = 1.0f;
 /** The same for the ground around the carpet, where only haze changes the color; farther away each
- * part is longer than the previous one by a factor. */
+ * part is longer than the previous one by a factor. Chosen as for the carpet. */
 constexpr float kHallSize = 2.6f;
-constexpr float kHallGrowth = 1.25f;
+constexpr float kHallGrowth = 1.6f;
 /** Parts of the circle. Chosen: as long as those of lines. */
 constexpr int kCircleParts = 36;
+
+/** How far the parts of a line reach over each other, pixels: more than the rounding of their
+ * corners, which would leave gaps. */
+constexpr float kOverlap = 0.1f;
 
 using Eigen::Vector2f;
 using Box = Eigen::AlignedBox2f;
@@ -185,7 +189,8 @@ void FieldPatches::select(const RenderView& view) {
     const float margin = pixel_length(piece.middle, view);
     const float half = piece.half_width + margin;
     if (half + margin < piece.clearance) {
-      const Box box = grown(piece.middle, half * piece.normal.cwiseAbs());
+      const Vector2f across = half * piece.normal.cwiseAbs();
+      const Box box = grown(piece.middle, across.cwiseMax(kOverlap * margin));
       if (may_see(box, view)) {
         lines_.push_back({box, piece.normal, piece.normal.dot(piece.middle.min()), piece.is_edge});
       }

@@ -19,9 +19,9 @@ constexpr float kMargin = 0.075f;
  * (smaller values) and shadows detached from the feet (larger values). */
 constexpr float kOffsetFactor = 2.0f;
 constexpr float kOffsetUnits = 4.0f;
-/** Least extent of a texel, m. Chosen: about a quarter of the casters' error, as finer ones show no
+/** Least extent of a texel, m. Chosen: about half of the casters' error, as finer ones show no
  * more, and a part of kBoxStep. */
-constexpr float kLeastTexel = kBoxStep / 16;
+constexpr float kLeastTexel = kBoxStep / 8;
 /** Width of a shadow's edge, m: a texel of the map, and the caster's error. */
 constexpr float kPenumbra = 0.02f;
 

@@ -28,9 +28,10 @@ const vec3 kEncodedHorizon = sqrt(kHorizon);
 const vec3 kEncodedZenith = sqrt(kZenith);
 const vec3 kCurvature =
     4.0 * sqrt((kHorizon + kZenith) / 2.0) - 2.0 * (kEncodedHorizon + kEncodedZenith);
+const vec3 kRise = kEncodedHorizon - kEncodedZenith + kCurvature;
 void main() {
   float root = 1.0 - max(slope, 0.0);
   float part = root * root;  // of the horizon's light
-  screen = vec4(mix(kEncodedZenith, kEncodedHorizon, part) + part * (1.0 - part) * kCurvature, 1.0);
+  screen = vec4(kEncodedZenith + part * (kRise - part * kCurvature), 1.0);
 }
 #endif
