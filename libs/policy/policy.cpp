@@ -3,9 +3,9 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <set>
 
 #include "common/error.h"
+#include "robot_model/policy_files.h"
 
 namespace nao {
 namespace {
@@ -57,16 +57,10 @@ std::string Policy::find_fault() const {
 }
 
 std::vector<Policy> load_policies(const RobotModel& model) {
-  std::set<std::filesystem::path> files;
-  const std::filesystem::path folder = model.folder() / kPolicyFolder;
-  if (std::filesystem::is_directory(folder)) {
-    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-      if (std::filesystem::exists(entry.path() / kPolicyFile))
-        files.insert(entry.path() / kPolicyFile);
-    }
-  }
   std::vector<Policy> policies;
-  for (const auto& file : files) policies.push_back(Policy::load(model, file));
+  for (const auto& file : find_policy_files(model.folder())) {
+    policies.push_back(Policy::load(model, file));
+  }
   return policies;
 }
 

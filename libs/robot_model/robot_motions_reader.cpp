@@ -7,6 +7,7 @@
 
 #include "common/constants.h"
 #include "robot_model/action_kinds.h"
+#include "robot_model/policy_files.h"
 #include "robot_model/robot_model_reader.h"
 
 namespace nao {
@@ -194,19 +195,15 @@ void RobotModelReader::read_actions(const YamlEntry& list) {
 // Their files are read by what runs them: one that is wrong is not a fault of the robot.
 void RobotModelReader::find_policies() {
   std::set<std::string> names;
-  const std::filesystem::path folder = model_.folder_ / kPolicyFolder;
-  if (!std::filesystem::is_directory(folder)) return;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    const std::filesystem::path file = entry.path() / kPolicyFile;
-    if (std::filesystem::exists(file) && !is_get_up(file)) {
-      names.insert(entry.path().filename().string());
-    }
+  for (const std::filesystem::path& file : find_policy_files(model_.folder_)) {
+    if (!is_get_up(file)) names.insert(file.parent_path().filename().string());
   }
   if (names.empty()) return;
   names.insert(kOwnGaitAction);
   for (const std::string& name : names) {
     if (model_.find_action(name) != nullptr) {
-      throw ModelError((folder / name).string() + ": is the name of an action of the robot, too");
+      throw ModelError((model_.folder_ / kPolicyFolder / name).string() +
+                       ": is the name of an action of the robot, too");
     }
     const auto kind = name == kOwnGaitAction ? Action::Kind::kOwnGait : Action::Kind::kPolicy;
     model_.actions_.push_back({name, kind, Side::kNone, name});
