@@ -21,9 +21,9 @@ constexpr float kHallGrowth = 1.6f;
 /** Parts of the circle. Chosen: as long as those of lines. */
 constexpr int kCircleParts = 36;
 
-/** How far the parts of a line reach over each other, pixels: more than the rounding of their
- * corners, which would leave gaps. */
-constexpr float kOverlap = 0.1f;
+/** How far each part of a line reaches over its neighbors, m. Chosen: more than the rounding of
+ * corners (1/256 pixel) up to 12 m away, which would leave gaps. */
+constexpr float kOverlap = 0.005f;
 
 using Eigen::Vector2f;
 using Box = Eigen::AlignedBox2f;
@@ -169,6 +169,7 @@ void FieldPatches::add_line(const Vector2f& from, const Vector2f& to, const Vect
     };
     Box middle(at(part), at(part));
     middle.extend(at(part + 1));
+    middle = grown(middle, kOverlap * normal.unitOrthogonal().cwiseAbs());
     pieces_.push_back(
         {middle, normal, is_edge, half_width, std::numeric_limits<float>::infinity()});
   }
@@ -189,8 +190,7 @@ void FieldPatches::select(const RenderView& view) {
     const float margin = pixel_length(piece.middle, view);
     const float half = piece.half_width + margin;
     if (half + margin < piece.clearance) {
-      const Vector2f across = half * piece.normal.cwiseAbs();
-      const Box box = grown(piece.middle, across.cwiseMax(kOverlap * margin));
+      const Box box = grown(piece.middle, half * piece.normal.cwiseAbs());
       if (may_see(box, view)) {
         lines_.push_back({box, piece.normal, piece.normal.dot(piece.middle.min()), piece.is_edge});
       }

@@ -14,7 +14,7 @@
 namespace nao {
 
 struct RendererOptions {
-  /** Side of the shadow map, texels; 0 draws no shadows. */
+  /** Greatest side of the shadow map, texels; 0 draws no shadows. */
   int shadow_size = 320;
   /** Half the side of the ground's square, m. Haze hides its edge. */
   float ground_reach = 60;

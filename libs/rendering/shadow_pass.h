@@ -15,15 +15,15 @@
 
 namespace nao {
 
-/** Largest error of a shadow caster's surface, m. Chosen: about six texels of the head camera's
- * shadow map when it covers one robot (0.6 m over 320 texels). */
+/** Largest error of a shadow caster's surface, m. Chosen: about two texels of the head camera's
+ * shadow map when it covers one robot. */
 inline constexpr float kCasterError = 0.012f;
 
 /** Draws the shadow map: the depth of all shadow casters as seen from the light (Williams, "Casting
  * curved shadows on curved surfaces", SIGGRAPH 1978). The map covers the casters only. */
 class ShadowPass {
  public:
-  /** @param size  Side of the shadow map, texels; 0 turns shadows off.
+  /** @param size  Greatest side of the shadow map, texels; 0 turns shadows off.
    * @param meshes, depth  Must outlive this. */
   ShadowPass(int size, const MeshStore& meshes, const DepthProgram& depth);
 

@@ -78,9 +78,11 @@ TEST_P(FieldPatchesTest, CoverEveryLineWithAPixelOnBothSides) {
     }
     for (const GroundPatch& patch : patches_.lines()) {
       const float away = std::abs(patch.normal.dot(point) - patch.middle);
-      const Eigen::Vector2f side = (half_line + pixel) * patch.normal;
-      is_covered |= away < half_line / 2 && patch.box.contains(point + side) &&
-                    patch.box.contains(point - side);
+      if (!patch.box.contains(point) || away > half_line / 2) continue;
+      is_covered = true;
+      for (const float side : {-1.0f, 1.0f}) {
+        EXPECT_TRUE(patch.box.contains(point + side * (half_line + pixel) * patch.normal));
+      }
     }
     ASSERT_TRUE(is_covered) << point.transpose();
   }
