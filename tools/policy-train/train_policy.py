@@ -270,8 +270,17 @@ class Trainer:
 
     @torch.no_grad()
     def adopt(self, layers: list[tuple[np.ndarray, np.ndarray]]) -> None:
-        """Goes on from a policy that layers() gave. Its normalization is measured while it moves the robots."""
+        """Goes on from a policy that layers() gave. Its normalization is measured while it moves the robots.
+        It may lack the last observations: what their weights begin with is 0.
+        @throws ValueError  for a policy of other actions or hidden layers, or of more observations."""
         linear = [layer for layer in self.actor.network if isinstance(layer, nn.Linear)]
+        expected = [weight.shape for weight, _ in self.actor.layers()]
+        lacking = expected[0][1] - layers[0][0].shape[1]
+        if lacking > 0:
+            layers = [(np.pad(layers[0][0], ((0, 0), (0, lacking))), layers[0][1]), *layers[1:]]
+        given = [weight.shape for weight, _ in layers]
+        if given != expected:
+            raise ValueError(f"its layers have (outputs, inputs) {given}; this training's have {expected}")
         for k, (layer, (weight, bias)) in enumerate(zip(linear, layers)):
             rows, columns = layer.weight.shape
             last = 2 if k == len(linear) - 1 else 1
@@ -378,7 +387,7 @@ def main() -> None:
     parser.add_argument("--threads", type=int, default=os.cpu_count(), help="of the simulation (default: all cores)")
     parser.add_argument("--resume", action="store_true", help=f"go on from {CHECKPOINT}")
     parser.add_argument("--deviation", type=float, help="of the actions from now on, with --resume: less, for a calmer policy")
-    parser.add_argument("--start", type=Path, help="go on from this policy.onnx, of the same observations and hidden layers")
+    parser.add_argument("--start", type=Path, help="go on from this policy.onnx, of the same hidden layers and observations, or of the first of them")
     options = parser.parse_args()
     settings, weights = read_settings(options.folder)
     if options.resume and not (options.folder / CHECKPOINT).exists():
@@ -395,7 +404,10 @@ def main() -> None:
             if options.deviation:
                 trainer.deviation.data.fill_(math.log(options.deviation))
         elif options.start:
-            trainer.adopt(read_mlp(options.start))
+            try:
+                trainer.adopt(read_mlp(options.start))
+            except ValueError as error:
+                sys.exit(f"{options.start}: {error}")
         train(trainer, options.folder, options)
 
 

@@ -144,12 +144,12 @@ class VectorEnvironmentTest(unittest.TestCase):
 
 @unittest.skipIf(torch is None, "python3-torch is not installed")
 class TrainingTest(unittest.TestCase):
-    def train(self, folder: Path, *arguments: str) -> list[dict[str, float]]:
+    def train(self, folder: Path, *arguments: str, manifest: str = POLICY.read_text(), hidden: int = 16) -> list[dict[str, float]]:
         """@return The lines of its log."""
         import train_policy
 
-        (folder / "policy.yaml").write_text(POLICY.read_text())
-        (folder / "training.yaml").write_text("{size: 16, horizon: 8, hidden: [16], weights: {alive: 1.0}}\n")
+        (folder / "policy.yaml").write_text(manifest)
+        (folder / "training.yaml").write_text(f"{{size: 16, horizon: 8, hidden: [{hidden}], weights: {{alive: 1.0}}}}\n")
         sys.argv = ["train_policy.py", str(folder), "--threads", "1", *arguments]
         with contextlib.redirect_stdout(io.StringIO()):
             train_policy.main()
@@ -193,14 +193,21 @@ class TrainingTest(unittest.TestCase):
             start = folder / "start.onnx"
             (folder / "policy.onnx").rename(start)
             self.train(folder, "--iterations", "0", "--start", str(start))
-            row = np.random.default_rng(1).standard_normal((1, 47)).astype(np.float32)
-            outputs = []
-            for file in (start, folder / "policy.onnx"):
+            row = np.random.default_rng(1).standard_normal((1, 50)).astype(np.float32)
+
+            def run(file: Path, size: int) -> np.ndarray:
                 network = cv2.dnn.readNetFromONNX(str(file))
-                network.setInput(row)
-                outputs.append(network.forward())
-            self.assertGreater(np.abs(outputs[0]).max(), 1e-3)
-            np.testing.assert_allclose(outputs[1], outputs[0], atol=1e-4)
+                network.setInput(row[:, :size])
+                return np.asarray(network.forward())
+
+            self.assertGreater(np.abs(run(start, 47)).max(), 1e-3)
+            np.testing.assert_allclose(run(folder / "policy.onnx", 47), run(start, 47), atol=1e-4)
+            # Observations that the policy lacks do not change it.
+            manifest = POLICY.read_text().replace("phase:", "  - {quantity: linear_velocity}\nphase:")
+            self.train(folder, "--iterations", "0", "--start", str(start), manifest=manifest)
+            np.testing.assert_allclose(run(folder / "policy.onnx", 50), run(start, 47), atol=1e-4)
+            with self.assertRaisesRegex(SystemExit, r"start.onnx: its layers have .*\(64, 47\)"):
+                self.train(folder, "--start", str(start), hidden=32)
 
     def test_the_network_is_the_trained_one(self) -> None:
         """What is written takes observations that are not normalized, and gives the actor's mean."""
