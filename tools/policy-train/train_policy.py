@@ -271,7 +271,7 @@ class Trainer:
     @torch.no_grad()
     def adopt(self, layers: list[tuple[np.ndarray, np.ndarray]]) -> None:
         """Goes on from a policy that layers() gave. Its normalization is measured while it moves the robots.
-        It may lack the last observations: what their weights begin with is 0.
+        It may lack the last observations, whose weights begin at 0.
         @throws ValueError  for a policy of other actions or hidden layers, or of more observations."""
         linear = [layer for layer in self.actor.network if isinstance(layer, nn.Linear)]
         expected = [weight.shape for weight, _ in self.actor.layers()]
@@ -387,7 +387,7 @@ def main() -> None:
     parser.add_argument("--threads", type=int, default=os.cpu_count(), help="of the simulation (default: all cores)")
     parser.add_argument("--resume", action="store_true", help=f"go on from {CHECKPOINT}")
     parser.add_argument("--deviation", type=float, help="of the actions from now on, with --resume: less, for a calmer policy")
-    parser.add_argument("--start", type=Path, help="go on from this policy.onnx, of the same hidden layers and observations, or of the first of them")
+    parser.add_argument("--start", type=Path, help="go on from this policy.onnx, of the same hidden layers; it may lack the last observations")
     options = parser.parse_args()
     settings, weights = read_settings(options.folder)
     if options.resume and not (options.folder / CHECKPOINT).exists():
