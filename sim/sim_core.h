@@ -68,6 +68,10 @@ class SimCore {
   bool may_tick() const { return scheduler_.may_run(world_.tick()); }
   /** When to run the next tick, if it may be run; not after `now` means at once. */
   double next_tick(double now) const { return scheduler_.next_time(world_.tick(), now); }
+  /** When to read commands: TickScheduler::next_reading(). */
+  std::optional<double> next_reading(double now) const {
+    return scheduler_.next_reading(world_.tick(), now);
+  }
   /** Runs the next tick. @return Its delay behind its due time, s. */
   double run_tick(double now);
   /** Whether the last tick's state is sent: not in a world at rest (TickScheduler::rest()). */

@@ -194,9 +194,11 @@ void SimDaemon::run_tick(double now) {
 
 void SimDaemon::set_timer(double now) {
   itimerspec timing{};
+  const std::optional<double> reading = core_.next_reading(now);
+  loop_.set_watched(bus_.descriptor(), !reading);
   if (core_.may_tick()) {
     // A time in the past fires at once; only 0 would stop the timer.
-    const double next = std::max(core_.next_tick(now), now + 1e-6);
+    const double next = reading ? *reading : std::max(core_.next_tick(now), now + 1e-6);
     timing.it_value.tv_sec = static_cast<time_t>(next);
     timing.it_value.tv_nsec =
         static_cast<long>((next - static_cast<double>(timing.it_value.tv_sec)) * 1e9);

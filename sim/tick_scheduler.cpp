@@ -16,6 +16,9 @@ constexpr double kMaxWaitPeriods = 3;
 /** Time within which the controller must have answered for a tick to wait for it, s. Chosen: longer
  * than any wait, shorter than kSilence. */
 constexpr double kActive = 0.1;
+/** The answers to every tick of this multiple are read as they arrive, so that AnswerLatency knows
+ * when. Chosen: three of them in its window of a second. */
+constexpr int64_t kMeasuredTick = 32;
 
 }  // namespace
 
@@ -82,6 +85,15 @@ double TickScheduler::next_time(int64_t tick, double now) const {
                commands.latency.least() < period_;
       });
   return is_awaited ? std::max(due, last_tick_time_ + kMaxWaitPeriods * period_) : due;
+}
+
+std::optional<double> TickScheduler::next_reading(int64_t tick, double now) const {
+  if (is_lock_step_ || is_paused_ || pacer_.is_in_batch() || tick % kMeasuredTick == 0) {
+    return std::nullopt;
+  }
+  // A tick that is due waits for an answer; one of a slow pace is not due for long.
+  const double due = pacer_.next(now);
+  return due > now && due <= now + period_ ? std::optional(due) : std::nullopt;
 }
 
 double TickScheduler::begin_tick(int64_t tick, double now) {

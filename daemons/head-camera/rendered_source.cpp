@@ -25,6 +25,10 @@ constexpr int64_t kRestartThreshold = 1000000;
 /** Period of looking at the state while no image is needed, s. Chosen: a quarter of kTruthValidity.
  */
 constexpr double kSleepPeriod = 0.5;
+/** Simulated time between two images, microseconds, above which states are read as they come: those
+ * of a simulation much faster than real time would fill the socket. Chosen: three times real time.
+ */
+constexpr int64_t kMostBetweenImages = 100000;
 
 /** A robot with all joints at 0, for rendering before any message has arrived. */
 WorldState default_world(const RobotModel& model, const std::string& robot) {
@@ -43,7 +47,12 @@ WorldState default_world(const RobotModel& model, const std::string& robot) {
 }  // namespace
 
 RenderedSource::RenderedSource(Bus& bus, const RobotModel& model, const HeadCameraOptions& options)
-    : bus_(bus), model_(model), models_(model), robot_(options.robot), camera_(model, options) {
+    : bus_(bus),
+      needs_every_state_(options.exposure > 0),
+      model_(model),
+      models_(model),
+      robot_(options.robot),
+      camera_(model, options) {
   // The first image of a camera compiles shaders and allocates memory; this is done before the
   // first request.
   for (const CameraModel& camera : model.cameras()) {
@@ -57,9 +66,21 @@ RenderedSource::RenderedSource(Bus& bus, const RobotModel& model, const HeadCame
 void RenderedSource::attach(EventLoop& loop, std::function<void(const std::string&)> on_image) {
   loop_ = &loop;
   timer_ = loop.every(1 / kMaxRate, [this, on_image = std::move(on_image)] {
-    if (!is_needed_) bus_.set_awake(kWorldTruthChannel, true);
+    if (is_needed_) {
+      read_states();
+    } else {
+      bus_.set_awake(kWorldTruthChannel, true);
+    }
     for (const CameraModel& camera : cameras()) on_image(camera.name);
   });
+}
+
+void RenderedSource::read_states() {
+  const int64_t before = world_ ? world_->utime : 0;
+  bus_.handle();
+  const bool may_wait =
+      is_needed_ && world_ && !needs_every_state_ && world_->utime - before <= kMostBetweenImages;
+  loop_->set_watched(bus_.descriptor(), !may_wait);
 }
 
 void RenderedSource::set_needed(bool is_needed) {
@@ -68,6 +89,7 @@ void RenderedSource::set_needed(bool is_needed) {
   if (is_needed == is_needed_ || loop_ == nullptr) return;
   is_needed_ = is_needed;
   bus_.set_awake(kWorldTruthChannel, is_needed);
+  loop_->set_watched(bus_.descriptor(), true);
   loop_->set_period(timer_, is_needed ? 1 / kMaxRate : kSleepPeriod);
   needed_since_ = monotonic_seconds();
 }

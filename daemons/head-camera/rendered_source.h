@@ -39,11 +39,15 @@ class RenderedSource : public ImageSource {
 
  private:
   void receive_truth(const naolcm::world_truth_t& truth);
+  /** Takes the newest state just before an image, so that the others need not wake the process. */
+  void read_states();
 
   Bus& bus_;
   EventLoop* loop_ = nullptr;
   int timer_ = -1;
   bool is_needed_ = true;
+  /** Motion during the exposure is interpolated between two states in succession. */
+  bool needs_every_state_;
   /** Since when images are needed, s, monotonic: states of before are outdated. */
   double needed_since_ = 0;
   const RobotModel& model_;

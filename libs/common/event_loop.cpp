@@ -68,6 +68,12 @@ void EventLoop::on_readable(int descriptor, std::function<void()> handler) {
       {descriptor, 0, std::make_shared<const std::function<void()>>(std::move(handler))});
 }
 
+void EventLoop::set_watched(int descriptor, bool is_watched) {
+  for (Source& source : sources_) {
+    if (source.descriptor == descriptor) source.is_watched = is_watched;
+  }
+}
+
 // Marked only: the list must not change while run() goes through it.
 void EventLoop::forget(int descriptor) {
   for (Source& source : sources_) {
@@ -121,7 +127,10 @@ std::string EventLoop::run() {
     std::erase_if(sources_, [](const Source& source) { return source.descriptor < 0; });
     polled.clear();
     polled.push_back({signal_descriptor_, POLLIN, 0});
-    for (const Source& source : sources_) polled.push_back({source.descriptor, POLLIN, 0});
+    // poll() ignores a descriptor of -1.
+    for (const Source& source : sources_) {
+      polled.push_back({source.is_watched ? source.descriptor : -1, POLLIN, 0});
+    }
     if (poll(polled.data(), polled.size(), -1) < 0) {
       if (errno == EINTR) continue;
       throw Error(std::string("cannot wait for events: ") + std::strerror(errno));

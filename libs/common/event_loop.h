@@ -27,6 +27,10 @@ class EventLoop {
    * open. */
   void on_readable(int descriptor, std::function<void()> handler);
 
+  /** Whether on_readable() of a descriptor is in effect. What may wait until a timer's handler
+   * reads it need not wake the process: a wake-up costs both it and the sender time. */
+  void set_watched(int descriptor, bool is_watched);
+
   /** Ends on_readable() for a descriptor; call it before the descriptor is closed. A handler may
    * forget its own. */
   void forget(int descriptor);
@@ -61,6 +65,7 @@ class EventLoop {
     double period;
     /** Shared with the call that is running, during which the source may be forgotten. */
     std::shared_ptr<const std::function<void()>> handler;
+    bool is_watched = true;
   };
 
   /** @param first  Time of the first call, s of the monotonic clock. */

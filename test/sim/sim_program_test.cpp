@@ -119,6 +119,20 @@ TEST_F(SimProgram, IsReadyAndKeepsPaceWithTheWallClock) {
   EXPECT_EQ(program_->end(), 0);
 }
 
+TEST_F(SimProgram, IsWokenByTicksAndNotByTheirAnswers) {
+  on_sensors_ = [this](const naolcm::sensor_state_t& sensors) {
+    // Another target each time: the world does not rest.
+    bus_.publish(RobotChannels().joint_command,
+                 command(sensors.tick, {"HeadYaw"}, {sensors.tick % 2 == 0 ? 0.1 : -0.1}, {1}));
+  };
+  start({});
+  ASSERT_TRUE(wait_for([&] { return sensors_ && sensors_->tick >= 100; }));
+  const int64_t tick = sensors_->tick;
+  const int before = num_waits(program_->pid());
+  ASSERT_TRUE(wait_for([&] { return sensors_->tick >= tick + 200; }));
+  EXPECT_LT(num_waits(program_->pid()) - before, 1.5 * static_cast<double>(sensors_->tick - tick));
+}
+
 TEST_F(SimProgram, RejectsInvalidJointCommandsAndNothingMoves) {
   start({"--scene", "empty", "--ideal-sensors"});
   ASSERT_TRUE(wait_for([&] { return truth_ && truth_->tick > 200; }));

@@ -82,6 +82,26 @@ TEST(TickScheduler, WaitsThreePeriodsForANearbyControllerAndNotForADistantOne) {
   EXPECT_NEAR(next_time_after_silence(0.03), kPeriod, 1e-9);
 }
 
+TEST(TickScheduler, ReadsCommandsWhenATickIsDueAndAsTheyArriveWhereOneWaitsForThem) {
+  TickScheduler scheduler(1, kPeriod, false, 1);
+  scheduler.begin_tick(0, 0.01);
+  EXPECT_NEAR(scheduler.next_reading(1, 0.011).value_or(0), 0.02, 1e-12);
+  EXPECT_EQ(scheduler.next_reading(1, 0.02), std::nullopt) << "the tick is due";
+  EXPECT_EQ(scheduler.next_reading(64, 0.011), std::nullopt) << "the latency is measured";
+  scheduler.rest(1, TickScheduler::kRestTicks);
+  EXPECT_EQ(scheduler.next_reading(1, 0.011), std::nullopt) << "a command ends the rest";
+  scheduler.drop_batch();
+  scheduler.pause();
+  EXPECT_EQ(scheduler.next_reading(1, 0.011), std::nullopt);
+  scheduler.resume(0.011);
+  EXPECT_NE(scheduler.next_reading(1, 0.012), std::nullopt);
+  scheduler.set_pace(0.1, 0.011);
+  EXPECT_EQ(scheduler.next_reading(1, 0.012), std::nullopt) << "the tick is not due for long";
+  scheduler.set_pace(0, 0.011);
+  EXPECT_EQ(scheduler.next_reading(1, 0.012), std::nullopt);
+  EXPECT_EQ(TickScheduler(1, kPeriod, true, 1).next_reading(1, 0), std::nullopt) << "lock-step";
+}
+
 TEST(TickScheduler, CountsMissingCommandsOfAnActiveController) {
   TickScheduler scheduler(1, kPeriod, false, 1);
   scheduler.begin_tick(0, 0.01);

@@ -18,6 +18,7 @@
 #include "common/wall_clock.h"
 #include "test/daemons/head-camera/running_camera.h"
 #include "test/daemons/head-camera/truth.h"
+#include "test/support/child_program.h"
 
 namespace nao {
 namespace {
@@ -97,6 +98,33 @@ TEST(HeadCameraProgram, SendsImagesInOrderAndEndsOnSigterm) {
   for (size_t i = 1; i < utimes.size(); ++i) EXPECT_GT(utimes[i], utimes[i - 1]);
   EXPECT_LE(utimes.back(), truth.utime);
   EXPECT_EQ(camera.stop(), 0);
+}
+
+TEST(HeadCameraProgram, IsWokenForImagesAndNotByStates) {
+  const std::string url = private_url();
+  Bus bus(url);
+  int num_images = 0;
+  bus.subscribe<naolcm::image_t>("NAO_HEAD_CAMERA_IMAGE", Bus::Queue::kAll,
+                                 [&](const naolcm::image_t&) { ++num_images; });
+  const auto model = RobotModel::load(data_path() / "robots" / "nao");
+  naolcm::world_truth_t truth = make_truth(model, "StandInit", 0.32);
+  ChildProgram camera("nao-head-camera", {"--always", "--rate", "10", "--lcm-url", url});
+  const auto send_states_until = [&](int least_images) {
+    int num_states = 0;
+    for (const double end = monotonic_seconds() + 60;
+         num_images < least_images && monotonic_seconds() < end; ++num_states) {
+      truth.utime += 10000;
+      bus.publish(kWorldTruthChannel, truth);
+      const double next = monotonic_seconds() + 0.01;
+      while (monotonic_seconds() < next) bus.handle_for(0.002);
+    }
+    return num_states;
+  };
+  send_states_until(5);
+  const int before = num_waits(camera.pid());
+  const int num_states = send_states_until(15);
+  ASSERT_GE(num_images, 15);
+  EXPECT_LT(num_waits(camera.pid()) - before, num_states);
 }
 
 }  // namespace

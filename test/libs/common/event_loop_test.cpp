@@ -54,6 +54,23 @@ TEST(EventLoop, CallsTheHandlerOfAReadableDescriptor) {
   close(ends[1]);
 }
 
+TEST(EventLoop, CallsNoHandlerOfADescriptorThatIsNotWatched) {
+  EventLoop loop;
+  std::array<int, 2> ends{};
+  ASSERT_EQ(pipe(ends.data()), 0);
+  ASSERT_EQ(write(ends[1], "x", 1), 1);
+  bool is_watched = false;
+  loop.on_readable(ends[0], [&] { loop.stop(is_watched ? "watched" : "not watched"); });
+  loop.set_watched(ends[0], false);
+  loop.every(0.01, [&] {
+    is_watched = true;
+    loop.set_watched(ends[0], true);
+  });
+  EXPECT_EQ(loop.run(), "watched");
+  close(ends[0]);
+  close(ends[1]);
+}
+
 TEST(EventLoop, AHandlerMayForgetItsOwnDescriptorAndAddAnother) {
   EventLoop loop;
   std::array<int, 2> ends{};
