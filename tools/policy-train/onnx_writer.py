@@ -95,13 +95,17 @@ def fields(message: bytes) -> Iterator[tuple[int, int | bytes]]:
 
 
 def read_mlp(file: Path) -> list[tuple[np.ndarray, np.ndarray]]:
-    """@return Layers, as write_mlp() took them."""
-    graph = next(value for field, value in fields(file.read_bytes()) if field == 7)
+    """@return Layers, as write_mlp() took them. @throws OSError, and ValueError if the file is another one or damaged."""
     arrays = []
-    for field, value in fields(graph):
-        if field == 5:
-            tensor_fields = list(fields(value))
-            shape = [size for number, size in tensor_fields if number == 1]
-            raw = next(content for number, content in tensor_fields if number == 9)
-            arrays.append(np.frombuffer(raw, "<f4").reshape(shape).copy())
+    message = file.read_bytes()
+    try:
+        graph = next(value for field, value in fields(message) if field == 7)
+        for field, value in fields(graph):
+            if field == 5:
+                tensor_fields = list(fields(value))
+                shape = [size for number, size in tensor_fields if number == 1]
+                raw = next(content for number, content in tensor_fields if number == 9)
+                arrays.append(np.frombuffer(raw, "<f4").reshape(shape).copy())
+    except (IndexError, OverflowError, StopIteration, TypeError, ValueError) as error:
+        raise ValueError("it is damaged, or not a policy.onnx of this trainer") from error
     return list(zip(arrays[::2], arrays[1::2]))

@@ -406,7 +406,7 @@ def main() -> None:
         elif options.start:
             try:
                 trainer.adopt(read_mlp(options.start))
-            except ValueError as error:
+            except (OSError, ValueError) as error:
                 sys.exit(f"{options.start}: {error}")
         train(trainer, options.folder, options)
 

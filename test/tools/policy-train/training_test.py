@@ -208,6 +208,15 @@ class TrainingTest(unittest.TestCase):
             np.testing.assert_allclose(run(folder / "policy.onnx", 50), run(start, 47), atol=1e-4)
             with self.assertRaisesRegex(SystemExit, r"start.onnx: its layers have .*\(64, 47\)"):
                 self.train(folder, "--start", str(start), hidden=32)
+            policy = start.read_bytes()
+            random = np.random.default_rng(2)
+            for content in (b"", policy[:3000], *(random.bytes(size) for size in range(1, 40))):
+                start.write_bytes(content)
+                with self.assertRaisesRegex(SystemExit, r"start\.onnx: it(s layers| is damaged)"):
+                    self.train(folder, "--start", str(start))
+            start.unlink()
+            with self.assertRaisesRegex(SystemExit, r"start\.onnx: .*No such file"):
+                self.train(folder, "--start", str(start))
 
     def test_the_network_is_the_trained_one(self) -> None:
         """What is written takes observations that are not normalized, and gives the actor's mean."""
