@@ -75,8 +75,8 @@ class TickScheduler {
   int awaited_robot(int64_t tick) const;
   /** When to run it, if it may be run; not after `now` means at once. */
   double next_time(int64_t tick, double now) const;
-  /** When commands that arrive after `tick` are to be read at the latest, not after `now + period`:
-   * they take effect in ticks only. Nothing: as they arrive. */
+  /** When the tick after `tick` is due, if commands that arrive until then may be read then, since
+   * they take effect in ticks only; nothing if they must be read as they arrive. */
   std::optional<double> next_reading(int64_t tick, double now) const;
   /** The tick after `tick` begins. @return Its delay behind its due time, s. */
   double begin_tick(int64_t tick, double now);

@@ -79,7 +79,7 @@ void RenderedSource::read_states() {
   const int64_t before = world_ ? world_->utime : 0;
   bus_.handle();
   const bool may_wait =
-      is_needed_ && world_ && !needs_every_state_ && world_->utime - before <= kMostBetweenImages;
+      world_ && !needs_every_state_ && world_->utime - before <= kMostBetweenImages;
   loop_->set_watched(bus_.descriptor(), !may_wait);
 }
 

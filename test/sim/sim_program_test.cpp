@@ -21,6 +21,7 @@
 #include "sim/world.h"
 #include "test/sim/sim_fixture.h"
 #include "test/support/child_program.h"
+#include "test/support/num_waits.h"
 
 namespace nao::sim {
 namespace {

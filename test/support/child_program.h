@@ -2,7 +2,6 @@
 
 #include <unistd.h>
 
-#include <fstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,15 +13,6 @@ namespace nao {
 /** URL of a bus of this test process alone: parallel tests must not share a bus. */
 inline std::string private_bus_url() {
   return "udpm://239.255.76.67:" + std::to_string(20000 + getpid() % 10000) + "?ttl=0";
-}
-
-/** How often the first thread of a process has waited for something, and so been woken. */
-inline int num_waits(int process_id) {
-  std::ifstream status("/proc/" + std::to_string(process_id) + "/status");
-  for (std::string line; std::getline(status, line);) {
-    if (line.starts_with("voluntary_ctxt_switches:")) return std::stoi(line.substr(24));
-  }
-  return 0;
 }
 
 /** A program of the project as a child of a test; its output is the test's. */

@@ -19,6 +19,7 @@
 #include "test/daemons/head-camera/running_camera.h"
 #include "test/daemons/head-camera/truth.h"
 #include "test/support/child_program.h"
+#include "test/support/num_waits.h"
 
 namespace nao {
 namespace {
@@ -71,14 +72,31 @@ TEST(HeadCameraProgram, RejectsAWrongCommandLine) {
   EXPECT_THAT(platform.text, testing::HasSubstr("moon"));
 }
 
+/** Sends a state of the world every 10 ms and handles what comes, until `num_images` reaches
+ * `least` or a minute is over. @return Number of states. */
+int send_states(Bus& bus, naolcm::world_truth_t& truth, const size_t& num_images, size_t least) {
+  int num_states = 0;
+  const double end = monotonic_seconds() + 60;
+  for (; num_images < least && monotonic_seconds() < end; ++num_states) {
+    truth.utime += 10000;
+    bus.publish(kWorldTruthChannel, truth);
+    const double next = monotonic_seconds() + 0.01;
+    while (monotonic_seconds() < next) bus.handle_for(0.002);
+  }
+  return num_states;
+}
+
 TEST(HeadCameraProgram, SendsImagesInOrderAndEndsOnSigterm) {
   const std::string url = private_url();
   Bus bus(url);
   std::vector<int64_t> utimes;
+  size_t num_images = 0;
   std::string state;
-  bus.subscribe<naolcm::image_t>(
-      "NAO_HEAD_CAMERA_IMAGE", Bus::Queue::kAll,
-      [&](const naolcm::image_t& image) { utimes.push_back(image.utime); });
+  bus.subscribe<naolcm::image_t>("NAO_HEAD_CAMERA_IMAGE", Bus::Queue::kAll,
+                                 [&](const naolcm::image_t& image) {
+                                   utimes.push_back(image.utime);
+                                   ++num_images;
+                                 });
   bus.subscribe<naolcm::daemon_status_t>(
       kDaemonStatusChannel, Bus::Queue::kAll,
       [&](const naolcm::daemon_status_t& status) { state = status.state; });
@@ -86,13 +104,7 @@ TEST(HeadCameraProgram, SendsImagesInOrderAndEndsOnSigterm) {
   naolcm::world_truth_t truth = make_truth(model, "StandInit", 0.32);
 
   RunningCamera camera({"--always", "--rate", "30", "--lcm-url", url});
-  const double deadline = monotonic_seconds() + 60;
-  while (utimes.size() < 20 && monotonic_seconds() < deadline) {
-    truth.utime += 10000;
-    bus.publish(kWorldTruthChannel, truth);
-    const double next = monotonic_seconds() + 0.01;
-    while (monotonic_seconds() < next) bus.handle_for(0.002);
-  }
+  send_states(bus, truth, num_images, 20);
   ASSERT_GE(utimes.size(), 20u);
   EXPECT_EQ(state, "ready");
   for (size_t i = 1; i < utimes.size(); ++i) EXPECT_GT(utimes[i], utimes[i - 1]);
@@ -103,27 +115,16 @@ TEST(HeadCameraProgram, SendsImagesInOrderAndEndsOnSigterm) {
 TEST(HeadCameraProgram, IsWokenForImagesAndNotByStates) {
   const std::string url = private_url();
   Bus bus(url);
-  int num_images = 0;
+  size_t num_images = 0;
   bus.subscribe<naolcm::image_t>("NAO_HEAD_CAMERA_IMAGE", Bus::Queue::kAll,
                                  [&](const naolcm::image_t&) { ++num_images; });
   const auto model = RobotModel::load(data_path() / "robots" / "nao");
   naolcm::world_truth_t truth = make_truth(model, "StandInit", 0.32);
   ChildProgram camera("nao-head-camera", {"--always", "--rate", "10", "--lcm-url", url});
-  const auto send_states_until = [&](int least_images) {
-    int num_states = 0;
-    for (const double end = monotonic_seconds() + 60;
-         num_images < least_images && monotonic_seconds() < end; ++num_states) {
-      truth.utime += 10000;
-      bus.publish(kWorldTruthChannel, truth);
-      const double next = monotonic_seconds() + 0.01;
-      while (monotonic_seconds() < next) bus.handle_for(0.002);
-    }
-    return num_states;
-  };
-  send_states_until(5);
+  send_states(bus, truth, num_images, 5);
   const int before = num_waits(camera.pid());
-  const int num_states = send_states_until(15);
-  ASSERT_GE(num_images, 15);
+  const int num_states = send_states(bus, truth, num_images, 15);
+  ASSERT_GE(num_images, 15u);
   EXPECT_LT(num_waits(camera.pid()) - before, num_states);
 }
 

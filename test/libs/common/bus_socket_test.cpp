@@ -6,12 +6,12 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <naolcm/stop_command_t.hpp>
 #include <string>
 #include <vector>
 
 #include "common/bus.h"
+#include "test/support/num_waits.h"
 
 namespace nao {
 namespace {
@@ -67,11 +67,8 @@ class BusSocketTest : public testing::Test {
 int num_waits_of_other_threads() {
   int sum = 0;
   for (const auto& task : std::filesystem::directory_iterator("/proc/self/task")) {
-    if (task.path().filename() == std::to_string(getpid())) continue;
-    std::ifstream status(task.path() / "status");
-    for (std::string line; std::getline(status, line);) {
-      if (line.rfind("voluntary_ctxt_switches:", 0) == 0) sum += std::stoi(line.substr(24));
-    }
+    const int thread_id = std::stoi(task.path().filename().string());
+    if (thread_id != getpid()) sum += num_waits(thread_id);
   }
   return sum;
 }
